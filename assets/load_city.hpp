@@ -1,0 +1,39 @@
+/// A city from what the user names: a built-in scene or files as they come.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "city/city.hpp"
+#include "city/diagnostics.hpp"
+
+namespace vicus::assets {
+
+/// Called from the loading thread with what is being done and how far it is, 0 to 1.
+using Progress = std::function<void(std::string_view stage, double fraction)>;
+
+struct LoadOptions {
+  std::vector<std::string> elevation;  ///< rasters for the terrain (`--dem`)
+  std::string heightColumn;            ///< column of building heights, metres; empty: found by its usual names
+  std::string groundColumn;            ///< column of ground altitude; empty: found by its usual names
+  std::string crs;                     ///< CRS of sources that state none (`--crs EPSG:…`)
+  glm::dvec3 shift{0};                 ///< metres added to all coordinates (`--shift`), for tests of far coordinates
+  std::string cacheFolder;             ///< where the cache lies; empty: no cache
+  Progress progress;                   ///< may be empty
+};
+
+struct LoadResult {
+  std::optional<city::City> city;  ///< nothing where there was nothing that could be shown
+  city::Diagnostics diagnostics;
+  bool fromCache = false;
+};
+
+/// Inputs are `norvic`, `norvic:8000`, `norwich-2001`, or paths of footprints (any OGR format), CityJSON and elevation
+/// rasters, all brought into one city. Never throws: what could not be read is in the diagnostics.
+LoadResult loadCity(std::span<const std::string> inputs, const LoadOptions& options);
+
+}  // namespace vicus::assets

@@ -1,0 +1,54 @@
+/// Everything decided for one view of one frame, as plain data.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "city/instance.hpp"
+#include "city/view_state.hpp"
+
+namespace vicus::city {
+
+/// Why something is not drawn.
+enum class DropReason : uint8_t { Frustum };
+
+struct DroppedRange {
+  Range range;
+  DropReason reason;
+};
+
+/// What is drawn of one instance set: runs of instances in ascending order, never touching or overlapping; and the rest
+/// with reasons. Drawn and dropped runs together cover the set exactly once.
+struct SetPlan {
+  std::vector<Range> drawn;
+  std::vector<DroppedRange> dropped;
+  uint64_t drawnCount = 0;  ///< instances in `drawn`
+  uint64_t inFrustumCount = 0;
+};
+
+/// Time that one step of the plan took.
+struct StageTime {
+  std::string_view name;
+  double milliseconds = 0;
+};
+
+struct PlanCounts {
+  uint64_t tiles = 0, tilesDrawn = 0;  ///< tiles with anything on them
+  uint64_t instances = 0, instancesInFrustum = 0, instancesOccluded = 0,
+           instancesDrawn = 0;  ///< buildings and monuments
+  uint64_t treesDrawn = 0;
+  uint64_t boxTests = 0;  ///< boxes tested against the frustum
+};
+
+struct FramePlan {
+  ViewState view;
+  SetPlan buildings;
+  SetPlan trees;
+  std::vector<uint32_t> monuments;  ///< drawn, ascending
+  std::vector<uint32_t> tiles;      ///< drawn: tiles whose ground or content may be seen, in Morton order (ascending)
+  PlanCounts counts;
+  std::vector<StageTime> stages;  ///< in the order run
+};
+
+}  // namespace vicus::city

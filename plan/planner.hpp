@@ -1,0 +1,53 @@
+/// Runs the algorithms in order for one view and fills the FramePlan.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "city/city.hpp"
+#include "city/frame_plan.hpp"
+#include "city/knob.hpp"
+
+namespace vicus::plan {
+
+/// A feature of the program and whether this scene has it.
+struct FeatureReport {
+  std::string name;        ///< "frustum_culling", "terrain", "trees", …
+  bool technique = false;  ///< trades error for time; false: content
+  bool on = false;
+  std::string why;  ///< for people: "no height field", "388 tiles"
+};
+
+/// What must be remembered between frames of one view; one for each view (eye, reference, item buffer, frozen view).
+struct PlannerState {
+  std::vector<uint32_t> scratch;  ///< reused storage, no meaning between frames
+};
+
+/// Knobs of the planning techniques (frustum_culling, …).
+std::span<const city::Knob> planKnobs();
+
+/// The one composition: looks at the scene and the knobs once and makes only the steps that this scene needs.
+/// Invariant: `plan` changes nothing but the state it is given; the same arguments give the same plan.
+class Planner {
+ public:
+  Planner(const city::City& city, const city::Knobs& knobs);
+  ~Planner();
+  Planner(Planner&&) noexcept;
+  Planner& operator=(Planner&&) noexcept;
+
+  /// `city` is the one that the planner was made for. `dt` in seconds since this view's last plan.
+  city::FramePlan plan(const city::City& city, const city::ViewState& view, double dt, PlannerState& state) const;
+
+  /// Every technique and kind of content, on or off, with the reason.
+  const std::vector<FeatureReport>& features() const;
+  /// Names of the steps in the order run.
+  std::vector<std::string> steps() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace vicus::plan
