@@ -22,7 +22,7 @@ struct FeatureReport {
 
 /// What must be remembered between frames of one view; one for each view (eye, reference, item buffer, frozen view).
 struct PlannerState {
-  std::vector<uint32_t> scratch;  ///< reused storage, no meaning between frames
+  size_t runs = 0;  ///< runs of buildings in the last plan: how much room to make for the next; changes no result
 };
 
 /// Knobs of the planning techniques (frustum_culling, …).

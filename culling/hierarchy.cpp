@@ -1,0 +1,148 @@
+#include "culling/hierarchy.hpp"
+
+#include <bit>
+#include <cassert>
+
+#include "culling/box_distance.hpp"
+
+namespace vicus::culling {
+namespace {
+
+using city::BoundsNode;
+using city::Range;
+
+/// Collects runs that arrive in ascending order.
+class RunCollector {
+ public:
+  explicit RunCollector(city::SetPlan& out) : out_(out) {
+    out_.drawn.clear();
+    out_.dropped.clear();
+  }
+
+  void draw(Range run) {
+    if (!out_.drawn.empty() && out_.drawn.back().end() == run.first)
+      out_.drawn.back().count += run.count;
+    else
+      out_.drawn.push_back(run);
+    drawnCount_ += run.count;
+  }
+
+  void drop(Range run) {
+    if (!out_.dropped.empty() && out_.dropped.back().range.end() == run.first)
+      out_.dropped.back().range.count += run.count;
+    else
+      out_.dropped.push_back({run, city::DropReason::Frustum});
+  }
+
+  void finish() { out_.drawnCount = out_.inFrustumCount = drawnCount_; }
+
+ private:
+  city::SetPlan& out_;
+  uint64_t drawnCount_ = 0;
+};
+
+class InstanceCuller {
+ public:
+  InstanceCuller(const city::InstanceSet& set, const BoxTest& test, city::SetPlan& out)
+      : set_(set), test_(test), runs_(out) {}
+
+  uint64_t run() {
+    if (!set_.nodes.empty()) visit(set_.nodes[0], test_.allPlanes);
+    runs_.finish();
+    return tests_;
+  }
+
+ private:
+  void visit(const BoundsNode& node, uint32_t mask) {
+    ++tests_;
+    switch (classifyOrdered(test_, node.bounds, mask)) {
+      case Containment::Outside:
+        runs_.drop(node.instances);
+        return;
+      case Containment::Inside:
+        runs_.draw(node.instances);
+        return;
+      case Containment::Crossing:
+        break;
+    }
+    if (node.childCount == 0) return testEach(node.instances, mask);
+    for (uint32_t child = node.firstChild; child < node.firstChild + node.childCount; ++child)
+      visit(set_.nodes[child], mask);
+  }
+
+  void testEach(Range run, uint32_t mask) {
+    tests_ += run.count;
+    // Neighbours mostly agree, so they are collected into runs before they are handed on.
+    uint32_t from = run.first;
+    bool outside = isOutside(test_, set_.bounds[from], mask);
+    for (uint32_t i = run.first + 1; i < run.end(); ++i) {
+      const bool next = isOutside(test_, set_.bounds[i], mask);
+      if (next == outside) continue;
+      emit({from, i - from}, outside);
+      from = i, outside = next;
+    }
+    emit({from, run.end() - from}, outside);
+  }
+
+  void emit(Range run, bool outside) { outside ? runs_.drop(run) : runs_.draw(run); }
+
+  const city::InstanceSet& set_;
+  const BoxTest& test_;
+  RunCollector runs_;
+  uint64_t tests_ = 0;
+};
+
+/// Number of tiles, and so of boxes, in a level of the tree; and where it begins.
+constexpr size_t levelSize(uint32_t level) {
+  return size_t{1} << (2 * level);
+}
+constexpr size_t levelStart(uint32_t level) {
+  return (levelSize(level) - 1) / 3;
+}
+
+struct TileCuller {
+  const TileTree& tree;
+  const BoxTest& test;
+  std::vector<uint32_t>& drawn;
+  uint64_t tests = 0;
+
+  void visit(uint32_t level, uint32_t index, uint32_t mask) {
+    const city::Aabbf& box = tree.bounds[levelStart(level) + index];
+    if (box.empty()) return;
+    if (mask != 0) {
+      ++tests;
+      if (classify(test, box, mask) == Containment::Outside) return;
+    }
+    if (level + 1 == tree.levels) return drawn.push_back(index);
+    for (uint32_t quadrant = 0; quadrant < 4; ++quadrant) visit(level + 1, 4 * index + quadrant, mask);
+  }
+};
+
+}  // namespace
+
+uint64_t cullInstances(const city::InstanceSet& set, const BoxTest& test, city::SetPlan& out) {
+  return InstanceCuller(set, test, out).run();
+}
+
+TileTree buildTileTree(std::span<const city::Tile> tiles) {
+  TileTree tree;
+  if (tiles.empty()) return tree;
+  assert(std::has_single_bit(tiles.size()) && std::countr_zero(tiles.size()) % 2 == 0 && "tiles are not a power of 4");
+  tree.levels = static_cast<uint32_t>(std::countr_zero(tiles.size())) / 2 + 1;
+  tree.bounds.resize(levelStart(tree.levels));
+  const size_t leaves = levelStart(tree.levels - 1);
+  for (size_t t = 0; t < tiles.size(); ++t) tree.bounds[leaves + t] = tiles[t].bounds;
+  for (uint32_t level = tree.levels - 1; level-- > 0;)
+    for (size_t i = 0; i < levelSize(level); ++i)
+      for (size_t quadrant = 0; quadrant < 4; ++quadrant)
+        tree.bounds[levelStart(level) + i].extend(tree.bounds[levelStart(level + 1) + 4 * i + quadrant]);
+  return tree;
+}
+
+uint64_t cullTiles(const TileTree& tree, const BoxTest& test, std::vector<uint32_t>& drawn) {
+  TileCuller culler{tree, test, drawn};
+  if (!tree.bounds.empty()) culler.visit(0, 0, test.allPlanes);
+  return culler.tests;
+}
+
+}  // namespace vicus::culling

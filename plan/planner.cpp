@@ -1,0 +1,250 @@
+/// Based on: Willmott et al. 2001, §3.1.3 (tiles, buildings, trees and meshes are each culled by their boxes) and §6
+/// (the techniques in one walkthrough).
+#include "plan/planner.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <chrono>
+#include <utility>
+
+#include "culling/frustum.hpp"
+#include "culling/hierarchy.hpp"
+
+namespace vicus::plan {
+namespace {
+
+using city::City;
+using city::FramePlan;
+
+constexpr city::Knob kPlanKnobs[] = {
+    {"frustum_culling", 1, 0, 1, "on/off", "Leaves out what lies outside the picture's edges.",
+     "off: everything is drawn, also behind the viewer", "on is the most"},
+};
+
+/// What the composition and the steps know of the scene: worked out once.
+struct Scene {
+  bool frustumCulling = false;
+  bool tiles = false, buildings = false, trees = false, monuments = false;
+  uint64_t tilesWithContent = 0;
+  culling::TileTree tileTree;
+  city::Aabbf reach;  ///< of every box that is tested against the frustum
+};
+
+/// One frame in the making.
+struct Frame {
+  const City& city;
+  const Scene& scene;
+  const culling::BoxTest& boxTest;
+  FramePlan& plan;
+};
+
+/// One step of a frame: what it is called, whether this scene needs it, what it does. A technique is one or more rows
+/// of the table below, in the order in which they run.
+struct Step {
+  std::string_view name;
+  bool (*needed)(const Scene&);
+  void (*run)(Frame&);
+};
+
+void cullSet(Frame& frame, const city::InstanceSet& set, city::SetPlan& out) {
+  frame.plan.counts.boxTests += culling::cullInstances(set, frame.boxTest, out);
+}
+
+void drawWholeSet(const city::InstanceSet& set, city::SetPlan& out) {
+  out.drawn = {{0, static_cast<uint32_t>(set.size())}};
+  out.drawnCount = out.inFrustumCount = set.size();
+}
+
+void frustumTiles(Frame& frame) {
+  frame.plan.counts.boxTests += culling::cullTiles(frame.scene.tileTree, frame.boxTest, frame.plan.tiles);
+}
+
+void frustumBuildings(Frame& frame) {
+  cullSet(frame, frame.city.buildings, frame.plan.buildings);
+}
+
+void frustumTrees(Frame& frame) {
+  cullSet(frame, frame.city.trees, frame.plan.trees);
+}
+
+void frustumMonuments(Frame& frame) {
+  for (uint32_t i = 0; i < frame.city.monuments.size(); ++i) {
+    uint32_t mask = frame.boxTest.allPlanes;
+    if (culling::classify(frame.boxTest, frame.city.monuments[i].bounds, mask) != culling::Containment::Outside)
+      frame.plan.monuments.push_back(i);
+  }
+  frame.plan.counts.boxTests += frame.city.monuments.size();
+}
+
+void allTiles(Frame& frame) {
+  for (uint32_t t = 0; t < frame.city.tiles.size(); ++t)
+    if (!frame.city.tiles[t].bounds.empty()) frame.plan.tiles.push_back(t);
+}
+
+void allBuildings(Frame& frame) {
+  drawWholeSet(frame.city.buildings, frame.plan.buildings);
+}
+
+void allTrees(Frame& frame) {
+  drawWholeSet(frame.city.trees, frame.plan.trees);
+}
+
+void allMonuments(Frame& frame) {
+  for (uint32_t i = 0; i < frame.city.monuments.size(); ++i) frame.plan.monuments.push_back(i);
+}
+
+constexpr Step kSteps[] = {
+    {"frustum tiles", [](const Scene& s) { return s.frustumCulling && s.tiles; }, frustumTiles},
+    {"frustum buildings", [](const Scene& s) { return s.frustumCulling && s.buildings; }, frustumBuildings},
+    {"frustum trees", [](const Scene& s) { return s.frustumCulling && s.trees; }, frustumTrees},
+    {"frustum monuments", [](const Scene& s) { return s.frustumCulling && s.monuments; }, frustumMonuments},
+    {"all tiles", [](const Scene& s) { return !s.frustumCulling && s.tiles; }, allTiles},
+    {"all buildings", [](const Scene& s) { return !s.frustumCulling && s.buildings; }, allBuildings},
+    {"all trees", [](const Scene& s) { return !s.frustumCulling && s.trees; }, allTrees},
+    {"all monuments", [](const Scene& s) { return !s.frustumCulling && s.monuments; }, allMonuments},
+};
+
+Scene lookAt(const City& city, const city::Knobs& knobs) {
+  Scene scene;
+  for (const city::Tile& tile : city.tiles) {
+    if (tile.bounds.empty()) continue;
+    ++scene.tilesWithContent;
+    scene.reach.extend(tile.bounds);
+  }
+  for (const city::Monument& m : city.monuments) scene.reach.extend(m.bounds);
+  scene.tiles = scene.tilesWithContent > 0;
+  scene.buildings = !city.buildings.empty();
+  scene.trees = !city.trees.empty();
+  scene.monuments = !city.monuments.empty();
+  scene.frustumCulling =
+      knobs.on("frustum_culling") && (scene.tiles || scene.buildings || scene.trees || scene.monuments);
+  // Sets made without tiles are reached through their own roots.
+  for (const city::InstanceSet* set : {&city.buildings, &city.trees})
+    if (!set->nodes.empty()) scene.reach.extend(set->nodes[0].bounds);
+  if (scene.frustumCulling) scene.tileTree = culling::buildTileTree(city.tiles);
+  return scene;
+}
+
+/// "1 tree", "388 trees".
+std::string counted(uint64_t count, std::string_view one, std::string_view many) {
+  return std::to_string(count) + " " + std::string(count == 1 ? one : many);
+}
+
+FeatureReport content(std::string name, uint64_t count, std::string_view one, std::string_view many) {
+  return {std::move(name), false, count > 0, count > 0 ? counted(count, one, many) : "no " + std::string(many)};
+}
+
+std::vector<FeatureReport> describe(const City& city, const city::Knobs& knobs, const Scene& scene) {
+  std::vector<FeatureReport> features;
+  std::string why = std::to_string(scene.tilesWithContent) + " of " + counted(city.tiles.size(), "tile", "tiles") +
+                    (scene.tilesWithContent == 1 ? " holds" : " hold") + " something";
+  if (!knobs.on("frustum_culling"))
+    why = "knob";
+  else if (!scene.frustumCulling)
+    why = "nothing stands in the scene";
+  features.push_back({"frustum_culling", true, scene.frustumCulling, std::move(why)});
+
+  const bool terrain = city.terrain && !city.terrain->empty();
+  features.push_back(
+      {"terrain", false, terrain,
+       terrain ? std::to_string(city.terrain->size.x) + " × " + std::to_string(city.terrain->size.y) + " heights"
+               : "no height field"});
+  features.push_back(content("buildings", city.buildings.size(), "building", "buildings"));
+  features.push_back(content("trees", city.trees.size(), "tree", "trees"));
+  features.push_back(content("monuments", city.monuments.size(), "monument", "monuments"));
+  features.push_back(content("water", city.water.size(), "body of water", "bodies of water"));
+  features.push_back(content("streets", city.streets ? city.streets->edges.size() : 0, "street", "streets"));
+  return features;
+}
+
+/// Drawn and dropped runs cover a set of `size` exactly once, drawn ones never touch, and the counts are theirs.
+[[maybe_unused]] bool coversOnce(const city::SetPlan& set, size_t size) {
+  size_t drawn = 0, dropped = 0, end = 0;
+  uint64_t drawnCount = 0;
+  while (drawn < set.drawn.size() || dropped < set.dropped.size()) {
+    if (drawn < set.drawn.size() && set.drawn[drawn].first == end && set.drawn[drawn].count > 0) {
+      if (drawn > 0 && set.drawn[drawn - 1].end() == end) return false;
+      drawnCount += set.drawn[drawn].count;
+      end = set.drawn[drawn++].end();
+    } else if (dropped < set.dropped.size() && set.dropped[dropped].range.first == end &&
+               set.dropped[dropped].range.count > 0) {
+      end = set.dropped[dropped++].range.end();
+    } else {
+      return false;
+    }
+  }
+  return end == size && drawnCount == set.drawnCount && set.drawnCount <= set.inFrustumCount &&
+         set.inFrustumCount <= size;
+}
+
+void count(const City& city, const Scene& scene, FramePlan& plan) {
+  city::PlanCounts& counts = plan.counts;
+  counts.tiles = scene.tilesWithContent;
+  counts.tilesDrawn = plan.tiles.size();
+  counts.instances = city.buildings.size() + city.monuments.size();
+  counts.instancesInFrustum = plan.buildings.inFrustumCount + plan.monuments.size();
+  counts.instancesDrawn = plan.buildings.drawnCount + plan.monuments.size();
+  counts.instancesOccluded = counts.instancesInFrustum - counts.instancesDrawn;
+  counts.treesDrawn = plan.trees.drawnCount;
+}
+
+}  // namespace
+
+struct Planner::Impl {
+  Scene scene;
+  std::vector<Step> steps;
+  std::vector<FeatureReport> features;
+};
+
+std::span<const city::Knob> planKnobs() {
+  return kPlanKnobs;
+}
+
+Planner::Planner(const City& city, const city::Knobs& knobs) : impl_(std::make_unique<Impl>()) {
+  impl_->scene = lookAt(city, knobs);
+  std::copy_if(std::begin(kSteps), std::end(kSteps), std::back_inserter(impl_->steps),
+               [&](const Step& step) { return step.needed(impl_->scene); });
+  impl_->features = describe(city, knobs, impl_->scene);
+}
+
+Planner::~Planner() = default;
+Planner::Planner(Planner&&) noexcept = default;
+Planner& Planner::operator=(Planner&&) noexcept = default;
+
+FramePlan Planner::plan(const City& city, const city::ViewState& view, double /*dt*/, PlannerState& state) const {
+  using Clock = std::chrono::steady_clock;
+  FramePlan plan;
+  plan.view = view;
+  plan.stages.reserve(impl_->steps.size());
+  for (city::SetPlan* set : {&plan.buildings, &plan.trees}) {
+    set->drawn.reserve(state.runs);
+    set->dropped.reserve(state.runs);
+  }
+
+  const culling::BoxTest boxTest = culling::boxTestFor(culling::frustumOf(view), impl_->scene.reach);
+  Frame frame{city, impl_->scene, boxTest, plan};
+  for (const Step& step : impl_->steps) {
+    const Clock::time_point begin = Clock::now();
+    step.run(frame);
+    plan.stages.push_back({step.name, std::chrono::duration<double, std::milli>(Clock::now() - begin).count()});
+  }
+  count(city, impl_->scene, plan);
+
+  assert(coversOnce(plan.buildings, city.buildings.size()));
+  assert(coversOnce(plan.trees, city.trees.size()));
+  state.runs = std::max(plan.buildings.drawn.size(), plan.buildings.dropped.size());
+  return plan;
+}
+
+const std::vector<FeatureReport>& Planner::features() const {
+  return impl_->features;
+}
+
+std::vector<std::string> Planner::steps() const {
+  std::vector<std::string> names;
+  for (const Step& step : impl_->steps) names.emplace_back(step.name);
+  return names;
+}
+
+}  // namespace vicus::plan
