@@ -2,6 +2,10 @@
 
 add_library(vicus_options INTERFACE)
 target_compile_options(vicus_options INTERFACE -Wall -Wextra -Wconversion -Wshadow -Wpedantic)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # g++ 12 warns falsely about "text" + std::string at -O3 (GCC bug 105329).
+  target_compile_options(vicus_options INTERFACE -Wno-restrict)
+endif()
 if(VICUS_WERROR)
   target_compile_options(vicus_options INTERFACE -Werror)
 endif()
