@@ -1,0 +1,47 @@
+// Monuments: ordinary geometry under OpenSceneGraph's transforms, multiplied in double with the eye's.
+#include "vertex.glsl"
+
+uniform mat4 osg_ModelViewMatrix;
+uniform mat4 osg_ProjectionMatrix;
+uniform mat3 worldFromEye;
+
+#ifdef ITEM_ID
+uniform uint itemId;
+flat out uint item;
+#ifdef CUT_OUT
+#include "materials.glsl"
+out vec2 uv;
+flat out vec2 place;
+#endif
+#else
+#include "lighting.glsl"
+#include "materials.glsl"
+out vec2 uv;
+flat out vec2 place;
+out vec3 scale;
+out vec3 add;
+out float heightAboveGround;
+#endif
+
+void main() {
+  vec4 inEyeAxes = osg_ModelViewMatrix * vec4(vertexPosition, 1.0);
+  gl_Position = osg_ProjectionMatrix * inEyeAxes;
+#ifdef ITEM_ID
+  item = itemId;
+#ifdef CUT_OUT
+  Material material = materials[vertexMaterial.x];
+  uv = vertexUv * material.repeatsAndPlace.xy;
+  place = material.repeatsAndPlace.zw;
+#endif
+#else
+  Material material = materials[vertexMaterial.x];
+  uv = vertexUv * material.repeatsAndPlace.xy;
+  place = material.repeatsAndPlace.zw;
+  vec3 n = fromOctahedral(vertexNormal);
+  vec3 normal = worldFromEye * (mat3(osg_ModelViewMatrix) * n);
+  Seen s = seen(worldFromEye * inEyeAxes.xyz, normal, material.tint.rgb, material.gloss.x);
+  scale = s.scale;
+  add = s.add;
+  heightAboveGround = vertexPosition.z + 4.0 * abs(n.z);
+#endif
+}

@@ -1,0 +1,64 @@
+// Everything that is textured from the material arrays: buildings, trees, monuments.
+// TEXTURE_CLASSES: number of size classes that the scene has; each is one array on units 0, 1, …
+
+#if !defined(ITEM_ID) || defined(CUT_OUT)
+uniform sampler2DArray materialClass0;
+#if TEXTURE_CLASSES > 1
+uniform sampler2DArray materialClass1;
+#endif
+#if TEXTURE_CLASSES > 2
+uniform sampler2DArray materialClass2;
+#endif
+#if TEXTURE_CLASSES > 3
+uniform sampler2DArray materialClass3;
+#endif
+in vec2 uv;
+flat in vec2 place;  // layer, class
+
+// The material's colour as stored: the square root of linear light, and alpha.
+vec4 texel() {
+#if TEXTURE_CLASSES == 1
+  return texture(materialClass0, vec3(uv, place.x));
+#else
+  vec2 du = dFdx(uv), dv = dFdy(uv);
+  vec4 t = vec4(0.0);
+  if (place.y == 0.0) t = textureGrad(materialClass0, vec3(uv, place.x), du, dv);
+  if (place.y == 1.0) t = textureGrad(materialClass1, vec3(uv, place.x), du, dv);
+#if TEXTURE_CLASSES > 2
+  if (place.y == 2.0) t = textureGrad(materialClass2, vec3(uv, place.x), du, dv);
+#endif
+#if TEXTURE_CLASSES > 3
+  if (place.y == 3.0) t = textureGrad(materialClass3, vec3(uv, place.x), du, dv);
+#endif
+  return t;
+#endif
+}
+#endif
+
+#ifdef ITEM_ID
+flat in uint item;
+layout(location = 0) out uint shownItem;
+
+void main() {
+#ifdef CUT_OUT
+  if (texel().a < 0.5) discard;
+#endif
+  shownItem = item;
+}
+#else
+#include "lighting.glsl"
+in vec3 scale;
+in vec3 add;
+in float heightAboveGround;
+layout(location = 0) out vec4 shown;
+
+void main() {
+  vec4 t = texel();
+#ifdef CUT_OUT
+  if (t.a < 0.5) discard;
+#endif
+  // Walls are darker near the ground, where the ground and what stands on it hide the sky.
+  float open = 1.0 - 0.35 * max(1.0 - 0.4 * heightAboveGround, 0.0);
+  shown = vec4(displayed(t.rgb * t.rgb * (scale * open) + add), 1.0);
+}
+#endif
