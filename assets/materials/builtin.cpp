@@ -1,5 +1,9 @@
+#include <algorithm>
 #include <array>
+#include <atomic>
+#include <iterator>
 #include <string_view>
+#include <thread>
 
 #include "assets/materials/image_file.hpp"
 #include "assets/materials/materials.hpp"
@@ -91,6 +95,24 @@ Image materialImage(const city::Material& material, city::Diagnostics& diagnosti
   if (r.name != name)
     diagnostics.warn(material.source, material.name, "there is no built-in texture of this name; plaster is shown");
   return r.make();
+}
+
+std::vector<Image> materialImages(std::span<const city::Material> materials, city::Diagnostics& diagnostics) {
+  std::vector<Image> images(materials.size());
+  std::vector<city::Diagnostics> found(materials.size());
+  std::atomic<size_t> next = 0;
+  const auto work = [&] {
+    for (size_t i = next++; i < materials.size(); i = next++) images[i] = materialImage(materials[i], found[i]);
+  };
+  {
+    const size_t threads = std::min<size_t>(std::max(1U, std::thread::hardware_concurrency()), materials.size());
+    std::vector<std::jthread> helpers;
+    for (size_t t = 1; t < threads; ++t) helpers.emplace_back(work);
+    work();
+  }
+  for (city::Diagnostics& d : found)
+    std::move(d.messages.begin(), d.messages.end(), std::back_inserter(diagnostics.messages));
+  return images;
 }
 
 }  // namespace vicus::assets

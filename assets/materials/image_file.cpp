@@ -3,103 +3,166 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace vicus::assets {
 namespace {
 
+/// A header that asks for more than this is taken for damage.
+constexpr int64_t kMostTexels = int64_t{1} << 31;
+
 Image grey() {
-  return {8, 8, std::vector<uint8_t>(8 * 8 * 4, 128)};
+  Image image{8, 8, std::vector<uint8_t>(8 * 8 * 4, 128)};
+  for (size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
+  return image;
 }
 
-/// Averages `factor` × `factor` texels into one, weighted by alpha; a rest at the far edges is left out.
-Image reduced(const Image& in, int factor) {
-  Image out{std::max(1, in.width / factor), std::max(1, in.height / factor), {}};
-  out.rgba.resize(static_cast<size_t>(out.width) * static_cast<size_t>(out.height) * 4);
-  for (int y = 0; y < out.height; ++y)
-    for (int x = 0; x < out.width; ++x) {
-      uint64_t sum[3] = {}, alpha = 0, count = 0;
-      for (int dy = 0; dy < factor && y * factor + dy < in.height; ++dy)
-        for (int dx = 0; dx < factor && x * factor + dx < in.width; ++dx) {
-          const uint8_t* t =
-              in.rgba.data() + 4 * (static_cast<size_t>(y * factor + dy) * static_cast<size_t>(in.width) +
-                                    static_cast<size_t>(x * factor + dx));
-          for (int c = 0; c < 3; ++c) sum[c] += uint64_t{t[c]} * (t[3] + 1U);
-          alpha += t[3];
-          ++count;
-        }
-      uint8_t* o =
-          out.rgba.data() + 4 * (static_cast<size_t>(y) * static_cast<size_t>(out.width) + static_cast<size_t>(x));
-      for (int c = 0; c < 3; ++c) o[c] = static_cast<uint8_t>(sum[c] / (alpha + count));
-      o[3] = static_cast<uint8_t>(alpha / count);
-    }
+double linearFromSrgb(double s) {
+  return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+}
+
+uint8_t srgbFromLinear(double linear) {
+  const double v = std::clamp(linear, 0.0, 1.0);
+  return static_cast<uint8_t>((v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055) * 255 + 0.5);
+}
+
+const std::array<float, 256>& linearOfByte() {
+  static const std::array<float, 256> table = [] {
+    std::array<float, 256> t{};
+    for (size_t i = 0; i < t.size(); ++i) t[i] = static_cast<float>(linearFromSrgb(static_cast<double>(i) / 255));
+    return t;
+  }();
+  return table;
+}
+
+/// How a file's channels become red, green, blue and alpha.
+struct Layout {
+  size_t channels = 0;
+  std::array<size_t, 3> colour{};
+  int alpha = -1;  ///< channel, −1 for none
+  bool premultiplied = false;
+};
+
+Layout layoutOf(const OIIO::ImageSpec& spec) {
+  Layout layout;
+  layout.channels = static_cast<size_t>(spec.nchannels);
+  if (layout.channels >= 3) layout.colour = {0, 1, 2};
+  layout.alpha = spec.alpha_channel;
+  if (layout.alpha < 0 && layout.channels == 2) layout.alpha = 1;
+  // Only alpha that the file declares can be multiplied in.
+  layout.premultiplied = spec.alpha_channel >= 0 && spec.get_int_attribute("oiio:UnassociatedAlpha") == 0;
+  return layout;
+}
+
+/// Reads rows `begin` up to `end` of channels as T; false where the file is damaged.
+template <class T>
+bool readRows(OIIO::ImageInput& file, const OIIO::ImageSpec& spec, int begin, int end, std::vector<T>& rows) {
+  const OIIO::TypeDesc type = OIIO::BaseTypeFromC<T>::value;
+  rows.resize(static_cast<size_t>(end - begin) * static_cast<size_t>(spec.width) * static_cast<size_t>(spec.nchannels));
+  if (spec.tile_width == 0)
+    return file.read_scanlines(0, 0, spec.y + begin, spec.y + end, spec.z, 0, spec.nchannels, type, rows.data());
+  return file.read_tiles(0, 0, spec.x, spec.x + spec.width, spec.y + begin, spec.y + end, spec.z, spec.z + 1, 0,
+                         spec.nchannels, type, rows.data());
+}
+
+/// Straight colour and alpha of one texel.
+std::array<uint8_t, 4> texelOf(const uint8_t* in, const Layout& layout) {
+  std::array<uint8_t, 4> out{in[layout.colour[0]], in[layout.colour[1]], in[layout.colour[2]], 255};
+  if (layout.alpha < 0) return out;
+  out[3] = in[layout.alpha];
+  if (layout.premultiplied && out[3] != 0)
+    for (size_t c = 0; c < 3; ++c) out[c] = static_cast<uint8_t>(std::min(255, (out[c] * 255 + out[3] / 2) / out[3]));
   return out;
 }
 
-float encodeSrgb(float linear) {
-  const float v = std::isfinite(linear) ? std::clamp(linear, 0.0F, 1.0F) : 0.0F;
-  return v <= 0.0031308F ? 12.92F * v : 1.055F * std::pow(v, 1 / 2.4F) - 0.055F;
+std::array<uint8_t, 4> texelOf(const float* in, const Layout& layout) {
+  const auto finite = [](float v) { return std::isfinite(v) ? static_cast<double>(v) : 0.0; };
+  const double alpha = layout.alpha < 0 ? 1.0 : std::clamp(finite(in[layout.alpha]), 0.0, 1.0);
+  const double scale = layout.premultiplied && alpha > 0 ? 1 / alpha : 1;
+  std::array<uint8_t, 4> out{};
+  for (size_t c = 0; c < 3; ++c) out[c] = srgbFromLinear(finite(in[layout.colour[c]]) * scale);
+  out[3] = static_cast<uint8_t>(alpha * 255 + 0.5);
+  return out;
+}
+
+/// Reads the file strip by strip, so that a huge picture never lies in memory whole, and averages `factor` × `factor`
+/// texels into one, weighted by alpha. Rows come from the top, the image starts at the bottom.
+template <class T>
+bool readReduced(OIIO::ImageInput& file, const OIIO::ImageSpec& spec, int factor, Image& image) {
+  const Layout layout = layoutOf(spec);
+  const auto width = static_cast<size_t>(spec.width);
+  const int tile = std::max(1, spec.tile_height);
+  const int strip = tile * std::max(1, 64 / tile);
+  const std::array<float, 256>& linear = linearOfByte();
+  struct Sum {
+    std::array<float, 3> colour{};
+    float weight = 0, alpha = 0, count = 0;
+  };
+  std::vector<Sum> sums(factor > 1 ? static_cast<size_t>(image.width) : 0);
+  std::vector<T> rows;
+  for (int begin = 0; begin < spec.height; begin += strip) {
+    const int end = std::min(begin + strip, spec.height);
+    if (!readRows(file, spec, begin, end, rows)) return false;
+    for (int y = begin; y < end; ++y) {
+      const T* in = rows.data() + static_cast<size_t>(y - begin) * width * layout.channels;
+      const int row = y / factor;
+      if (row >= image.height) return true;  // a rest narrower than one texel
+      uint8_t* out =
+          image.rgba.data() + 4 * static_cast<size_t>(image.height - 1 - row) * static_cast<size_t>(image.width);
+      if (factor == 1) {
+        for (size_t x = 0; x < width; ++x) {
+          const std::array<uint8_t, 4> t = texelOf(in + x * layout.channels, layout);
+          std::copy(t.begin(), t.end(), out + 4 * x);
+        }
+        continue;
+      }
+      for (size_t x = 0; x < std::min(width, sums.size() * static_cast<size_t>(factor)); ++x) {
+        const std::array<uint8_t, 4> t = texelOf(in + x * layout.channels, layout);
+        Sum& sum = sums[x / static_cast<size_t>(factor)];
+        // Where all is transparent the colours still count a little, so that none is lost.
+        const float weight = static_cast<float>(t[3]) + 1.0F / 256;
+        for (size_t c = 0; c < 3; ++c) sum.colour[c] += weight * linear[t[c]];
+        sum.weight += weight, sum.alpha += static_cast<float>(t[3]), sum.count += 1;
+      }
+      if (y % factor != factor - 1 && y + 1 != spec.height) continue;
+      for (Sum& sum : sums) {
+        for (size_t c = 0; c < 3; ++c) *out++ = srgbFromLinear(sum.colour[c] / sum.weight);
+        *out++ = static_cast<uint8_t>(sum.alpha / sum.count + 0.5F);
+        sum = {};
+      }
+    }
+  }
+  return true;
 }
 
 }  // namespace
 
 Image readImageFile(const std::string& path, city::Diagnostics& diagnostics) {
-  auto file = OIIO::ImageInput::open(path);
+  OIIO::ImageSpec hints;
+  hints.attribute("oiio:UnassociatedAlpha", 1);
+  const auto file = OIIO::ImageInput::open(path, &hints);
   if (!file) {
     diagnostics.error(path, "", "the picture cannot be read; grey is shown: " + OIIO::geterror());
     return grey();
   }
-  const OIIO::ImageSpec& spec = file->spec();
-  const auto width = static_cast<size_t>(spec.width), height = static_cast<size_t>(spec.height);
-  const auto channels = static_cast<size_t>(spec.nchannels);
-  if (width == 0 || height == 0 || channels == 0 || width * height > (size_t{1} << 28)) {
-    diagnostics.error(
-        path, "",
-        "the picture has " + std::to_string(width) + " × " + std::to_string(height) + " texels; grey is shown");
+  const OIIO::ImageSpec spec = file->spec();
+  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || int64_t{spec.width} * spec.height > kMostTexels) {
+    diagnostics.error(path, "",
+                      "the picture says it has " + std::to_string(spec.width) + " × " + std::to_string(spec.height) +
+                          " texels; grey is shown");
     return grey();
   }
-  // Float formats hold linear light; integer ones are taken as sRGB already.
-  const bool linear = spec.format.is_floating_point();
-  const bool cmyk = channels >= 4 && spec.get_string_attribute("jpeg:ColorSpace",
-                                                               spec.get_string_attribute("tiff:ColorSpace")) == "CMYK";
-  std::vector<uint8_t> bytes;
-  std::vector<float> floats;
-  bool read;
-  if (linear) {
-    floats.resize(width * height * channels);
-    read = file->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, floats.data());
-  } else {
-    bytes.resize(width * height * channels);
-    read = file->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, bytes.data());
-  }
+  const int factor = (std::max(spec.width, spec.height) + kLongestImageSide - 1) / kLongestImageSide;
+  Image image{std::max(1, spec.width / factor), std::max(1, spec.height / factor), {}};
+  image.rgba.resize(static_cast<size_t>(image.width) * static_cast<size_t>(image.height) * 4);
+  // Float formats hold linear light; integers are sRGB already.
+  const bool read = spec.format.is_floating_point() ? readReduced<float>(*file, spec, factor, image)
+                                                    : readReduced<uint8_t>(*file, spec, factor, image);
   if (!read) {
     diagnostics.error(path, "", "the picture is damaged; grey is shown: " + file->geterror());
     return grey();
   }
-  Image image{spec.width, spec.height, std::vector<uint8_t>(width * height * 4)};
-  const int alphaChannel =
-      spec.alpha_channel >= 0 ? spec.alpha_channel : (channels == 2 ? 1 : (channels == 4 && !cmyk ? 3 : -1));
-  for (size_t y = 0; y < height; ++y)
-    for (size_t x = 0; x < width; ++x) {
-      const size_t in = ((height - 1 - y) * width + x) * channels;
-      uint8_t* out = image.rgba.data() + 4 * (y * width + x);
-      const auto value = [&](size_t c, bool light) {
-        if (!linear) return bytes[in + c];
-        const float v = light ? encodeSrgb(floats[in + c]) : std::clamp(floats[in + c], 0.0F, 1.0F);
-        return static_cast<uint8_t>(v * 255 + 0.5F);
-      };
-      if (cmyk) {
-        for (size_t c = 0; c < 3; ++c)
-          out[c] = static_cast<uint8_t>((255 - bytes[in + c]) * (255 - bytes[in + 3]) / 255);
-        out[3] = 255;
-        continue;
-      }
-      const bool colour = channels >= 3;
-      for (size_t c = 0; c < 3; ++c) out[c] = value(colour ? c : 0, true);
-      out[3] = alphaChannel >= 0 ? value(static_cast<size_t>(alphaChannel), false) : 255;
-    }
-  const int longest = std::max(image.width, image.height);
-  if (longest > kLongestImageSide) return reduced(image, (longest + kLongestImageSide - 1) / kLongestImageSide);
   return image;
 }
 
