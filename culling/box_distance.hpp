@@ -30,13 +30,4 @@ inline Containment classifyOrdered(const BoxTest& test, const city::Aabbf& box, 
   return mask == 0 ? Containment::Inside : Containment::Crossing;
 }
 
-/// Whether a box without NaN lies outside one of the planes in `mask`.
-inline bool isOutside(const BoxTest& test, const city::Aabbf& box, uint32_t mask) {
-  for (uint32_t rest = mask; rest != 0; rest &= rest - 1) {
-    const BoxTest::Plane& plane = test.planes[static_cast<size_t>(std::countr_zero(rest))];
-    if (cornerDistance(test, plane, box, plane.farthest) < 0) return true;
-  }
-  return false;
-}
-
 }  // namespace vicus::culling

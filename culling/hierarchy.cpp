@@ -1,5 +1,6 @@
 #include "culling/hierarchy.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cassert>
 
@@ -41,6 +42,9 @@ class RunCollector {
   uint64_t drawnCount_ = 0;
 };
 
+/// Instances that are tested in one go: one bit each.
+constexpr uint32_t kChunk = 64;
+
 class InstanceCuller {
  public:
   InstanceCuller(const city::InstanceSet& set, const BoxTest& test, city::SetPlan& out)
@@ -70,18 +74,34 @@ class InstanceCuller {
       visit(set_.nodes[child], mask);
   }
 
+  /// Tests the instances of a leaf and hands them on in runs. Without branches on the outcome of a test: at the
+  /// frustum's edge it is a coin's toss, and a wrongly predicted branch costs more than the test.
   void testEach(Range run, uint32_t mask) {
     tests_ += run.count;
-    // Neighbours mostly agree, so they are collected into runs before they are handed on.
-    uint32_t from = run.first;
-    bool outside = isOutside(test_, set_.bounds[from], mask);
-    for (uint32_t i = run.first + 1; i < run.end(); ++i) {
-      const bool next = isOutside(test_, set_.bounds[i], mask);
-      if (next == outside) continue;
-      emit({from, i - from}, outside);
-      from = i, outside = next;
+    for (uint32_t first = run.first; first < run.end(); first += kChunk) {
+      const uint32_t count = std::min(kChunk, run.end() - first);
+      const uint64_t outside = outsideBits(first, count, mask);
+      for (uint32_t i = 0; i < count;) {
+        const bool dropped = (outside >> i & 1) != 0;
+        const uint64_t differing = (dropped ? ~outside : outside) >> i;
+        const uint32_t length = std::min(static_cast<uint32_t>(std::countr_zero(differing)), count - i);
+        emit({first + i, length}, dropped);
+        i += length;
+      }
     }
-    emit({from, run.end() - from}, outside);
+  }
+
+  /// Bit i is set where instance first + i is outside one of the planes in `mask`. `count` is at most kChunk.
+  uint64_t outsideBits(uint32_t first, uint32_t count, uint32_t mask) const {
+    uint64_t outside = 0;
+    for (uint32_t rest = mask; rest != 0; rest &= rest - 1) {
+      const BoxTest::Plane plane = test_.planes[static_cast<size_t>(std::countr_zero(rest))];
+      for (uint32_t i = 0; i < count; ++i) {
+        const bool beyond = cornerDistance(test_, plane, set_.bounds[first + i], plane.farthest) < 0;
+        outside |= static_cast<uint64_t>(beyond) << i;
+      }
+    }
+    return outside;
   }
 
   void emit(Range run, bool outside) { outside ? runs_.drop(run) : runs_.draw(run); }
