@@ -15,7 +15,7 @@ Image glass() {
       paint(kHalf,
             [&](int, int y, size_t i) {
               const float up = 0.5F - 0.5F * std::cos(static_cast<float>(y) / 256.0F * 6.2831853F);
-              return Texel{glm::mix(dark, sky, glm::clamp(0.12F + 0.42F * up + 0.16F * wave[i], 0.0F, 1.0F)), wave[i]};
+              return Texel{glm::mix(dark, sky, glm::clamp(0.25F + 0.22F * up + 0.16F * wave[i], 0.0F, 1.0F)), wave[i]};
             }),
       {0.1F, 0, 4});
 }
@@ -46,21 +46,25 @@ Image leadGlass() {
 }
 
 Image bark() {
-  // Ridges along y that split and join.
-  const Field bend = fbm(kFull, {8, 5}, 4, 0.6F, 741), still(kFull);
-  const Field ridges = warped(fbm(kFull, {18, 4}, 3, 0.6F, 742), bend, still, 14),
-              rough = fbm(kFull, {40, 26}, 4, 0.7F, 743);
-  const Field speck = grain(kFull, 744), moss = fbm(kFull, {4, 4}, 4, 0.6F, 745);
-  const glm::vec3 ridge = srgb(0x746a5c), furrow = srgb(0x3f372f), green = srgb(0x6a6d52);
+  // Plates along y between furrows that split and join; cracks across the plates.
+  const Cells plates = voronoi(kFull, {14, 4}, 0.9F, 8, 741, 3.2F),
+              scales = voronoi(kFull, {30, 14}, 0.9F, 3, 742, 2.2F);
+  const Field rough = fbm(kFull, {40, 24}, 4, 0.75F, 743), speck = grain(kFull, 744);
+  const Field moss = fbm(kFull, {5, 5}, 4, 0.65F, 745), fibres = fbm(kFull, {60, 8}, 3, 0.7F, 746);
+  const glm::vec3 ridge = srgb(0x7a7164), furrow = srgb(0x40382f), green = srgb(0x6d6f59);
   return finish(paint(kFull,
                       [&](int, int, size_t i) {
-                        const float up = smoothly(-0.55F, 0.35F, ridges[i] + 0.3F * rough[i]);
+                        const float e = plates[i].edge + 1.6F * rough[i];
+                        const float plate = smoothly(0.5F, 10.0F, e);
+                        const float scale = smoothly(-0.3F, 2.6F, scales[i].edge + 0.6F * rough[i]);
+                        const float up = plate * (0.78F + 0.22F * scale);
+                        const float tone = 0.86F + 0.26F * chance(scales[i].id, 747) + 0.13F * rough[i] +
+                                           0.08F * fibres[i] + 0.05F * speck[i];
                         const float grows = 0.35F * smoothly(0.2F, 0.9F, moss[i]) * up;
-                        return Texel{glm::mix(glm::mix(furrow, ridge, up), green, grows) *
-                                         (1 + 0.16F * rough[i] + 0.05F * speck[i]),
-                                     6 * up + 1.6F * rough[i] + 0.2F * speck[i]};
+                        return Texel{glm::mix(glm::mix(furrow, ridge, up), green, grows) * tone,
+                                     7 * plate + 1.6F * scale + 1.1F * rough[i] + 0.8F * fibres[i]};
                       }),
-                {0.3F, 0.09F, 6});
+                {0.26F, 0.07F, 6});
 }
 
 namespace {
@@ -73,18 +77,21 @@ Image foliage(const std::array<glm::vec3, 4>& greens, float leafLength, int leaf
   // Sprays: leaves sit round a few dozen twig ends, so that holes are as large as sprays and live through mip levels.
   struct Spray {
     glm::vec2 at;
-    float radius, depth;
+    float radius;
   };
   std::vector<Spray> sprays;
-  for (int n = 0; n < 60; ++n) {
-    const float angle = uniform(0, 6.2831853F), away = 205 * std::sqrt(uniform(0, 1));
-    sprays.push_back({glm::vec2(256) + away * glm::vec2(std::cos(angle), 0.95F * std::sin(angle)), uniform(26, 44),
-                      static_cast<float>(n) / 60});
+  constexpr int kSprays = 76;
+  for (int n = 0; n < kSprays; ++n) {
+    // Spread evenly by the golden angle; a stride prime to their number mixes near and far.
+    const int k = (n * 29) % kSprays;
+    const float angle = 2.3999632F * static_cast<float>(k) + uniform(-0.3F, 0.3F);
+    const float away = 212 * std::sqrt((static_cast<float>(k) + 0.5F) / kSprays) * uniform(0.86F, 1.04F);
+    sprays.push_back({glm::vec2(256) + away * glm::vec2(std::cos(angle), std::sin(angle)), uniform(22, 38)});
   }
   for (int n = 0; n < leafCount; ++n) {
     const float depth = static_cast<float>(n) / static_cast<float>(leafCount);
     // Sprays are filled from the back to the front, each over a stretch of the order.
-    const auto nearest = static_cast<size_t>(glm::clamp(depth * 60 + uniform(-9, 9), 0.0F, 59.0F));
+    const auto nearest = static_cast<size_t>(glm::clamp(depth * kSprays + uniform(-12, 12), 0.0F, kSprays - 1.0F));
     const Spray& spray = sprays[nearest];
     const float angle = uniform(0, 6.2831853F), away = spray.radius * std::sqrt(uniform(0, 1));
     const glm::vec2 at = spray.at + away * glm::vec2(std::cos(angle), std::sin(angle));
@@ -104,11 +111,11 @@ Image foliage(const std::array<glm::vec3, 4>& greens, float leafLength, int leaf
 }  // namespace
 
 Image leaves() {
-  return foliage({srgb(0x68793f), srgb(0x5b6e3a), srgb(0x7a8549), srgb(0x707f45)}, 19, 3800, 760);
+  return foliage({srgb(0x6a7549), srgb(0x5e6b43), srgb(0x798052), srgb(0x707a4e)}, 19, 3800, 760);
 }
 
 Image leavesDark() {
-  return foliage({srgb(0x465536), srgb(0x3d4c31), srgb(0x53603c), srgb(0x4a5a3d)}, 15, 5200, 780);
+  return foliage({srgb(0x49553d), srgb(0x414d38), srgb(0x556044), srgb(0x4d5a44)}, 15, 5200, 780);
 }
 
 Image iron() {

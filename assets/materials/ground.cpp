@@ -81,9 +81,11 @@ Image cobbles() {
   return finish(paint(kFull,
                       [&](int, int, size_t i) {
                         const CellTexel& c = stones[i];
-                        const float e = c.edge + 0.5F * rough[i];
-                        const float in = smoothly(1.4F, 3.0F, e);
+                        // Corners are rubbed off.
                         const float r2 = glm::clamp(c.across * c.across + c.up * c.up, 0.0F, 1.6F);
+                        const float corner = 3.2F * glm::max(0.0F, r2 - 0.8F);
+                        const float e = c.edge + 0.5F * rough[i] - corner;
+                        const float in = smoothly(1.0F, 2.5F, e);
                         const float dome = smoothly(0.6F, 9.0F, e) * (1 - 0.25F * r2);
                         // Feet have rubbed the crowns paler.
                         const glm::vec3 stone =
@@ -103,16 +105,16 @@ Image earth() {
 }
 
 Image grass() {
-  Surface ground = soil(kFull, srgb(0x4a4a2e), 0.6F, 540);
+  Surface ground = soil(kFull, srgb(0x4a4a33), 0.6F, 540);
   const Field patches = fbm(kFull, {5, 5}, 4, 0.6F, 543);
   strew(
       ground,
-      {9000, 9, 20, 1.7F, 0.25F, {srgb(0x5b6a38), srgb(0x4f6034), srgb(0x69733f), srgb(0x76784a), srgb(0x566637)}, 544},
+      {9000, 9, 20, 1.7F, 0.25F, {srgb(0x5e6942), srgb(0x53603c), srgb(0x6a724a), srgb(0x767854), srgb(0x596640)}, 544},
       patches, -9);
   strew(
       ground,
-      {5000, 8, 18, 1.4F, 0.25F, {srgb(0x6c7842), srgb(0x7a8049), srgb(0x606f3c), srgb(0x8b8757), srgb(0x708046)}, 545},
-      patches, -0.2F);
+      {5000, 8, 18, 1.4F, 0.25F, {srgb(0x6e774d), srgb(0x7b8056), srgb(0x636f47), srgb(0x8b8764), srgb(0x727d52)}, 545},
+      patches, -0.45F);
   return finish(ground, {0.26F, 0.16F, 5});
 }
 
@@ -124,12 +126,12 @@ Image field() {
     const float phase = static_cast<float>(x % 32) / 32 * 2 - 1;
     const float ridge = 1 - phase * phase;
     return Texel{
-        srgb(0x85734f) * (1 + 0.06F * clouds[i] + 0.12F * lumps[i] + 0.05F * speck[i]) * (0.86F + 0.2F * ridge),
-        2.5F * ridge + 1.2F * lumps[i]};
+        srgb(0x83755a) * (1 + 0.06F * clouds[i] + 0.12F * lumps[i] + 0.05F * speck[i]) * (0.93F + 0.1F * ridge),
+        1.6F * ridge + 1.2F * lumps[i]};
   });
   city::Random random(563);
   const auto uniform = [&](float lo, float hi) { return static_cast<float>(random.uniform(lo, hi)); };
-  const std::array<glm::vec3, 4> straw{srgb(0xa8955f), srgb(0x96834f), srgb(0xb7a571), srgb(0x8d8455)};
+  const std::array<glm::vec3, 4> straw{srgb(0xa3956c), srgb(0x91835b), srgb(0xb1a47c), srgb(0x8a8360)};
   for (int n = 0; n < 7000; ++n) {
     const float row = 32 * static_cast<float>(random.below(16)) + 16;
     const glm::vec2 at(row + uniform(-7, 7) + uniform(-6, 6), uniform(0, 512));
@@ -141,10 +143,10 @@ Image field() {
 
 Image garden() {
   // Beds of herbs and greens in rows.
-  Surface ground = soil(kFull, srgb(0x5c4c3b), 1.0F, 580);
+  Surface ground = soil(kFull, srgb(0x5d4f41), 1.0F, 580);
   city::Random random(583);
   const auto uniform = [&](float lo, float hi) { return static_cast<float>(random.uniform(lo, hi)); };
-  const std::array<glm::vec3, 4> greens{srgb(0x5d7040), srgb(0x6d7f4c), srgb(0x55683f), srgb(0x7b8455)};
+  const std::array<glm::vec3, 4> greens{srgb(0x5f6d47), srgb(0x6e7b53), srgb(0x576545), srgb(0x7a815b)};
   for (int row = 0; row < 8; ++row)
     for (int plant = 0; plant < 11; ++plant) {
       const uint32_t id = static_cast<uint32_t>(row * 16 + plant);
@@ -153,14 +155,14 @@ Image garden() {
                              64 * (static_cast<float>(row) + 0.5F) + 10 * (chance(id, 586) - 0.5F));
       const glm::vec3 green =
           greens[static_cast<size_t>(((row * 7) % 4 + static_cast<int>(chance(id, 587) * 1.6F)) % 4)];
-      const float spread = row % 3 == 0 ? 11.0F : (row % 3 == 1 ? 16.0F : 8.0F);
-      for (int ring = 0; ring < 24; ++ring) {
+      const float spread = row % 3 == 0 ? 19.0F : (row % 3 == 1 ? 24.0F : 15.0F);
+      for (int ring = 0; ring < 40; ++ring) {
         const float angle = uniform(0, 6.2832F),
-                    away = spread * (1 - static_cast<float>(ring) / 24) * uniform(0.6F, 1.1F);
+                    away = spread * (1 - static_cast<float>(ring) / 40) * uniform(0.6F, 1.1F);
         const glm::vec2 at = centre + away * glm::vec2(glm::cos(angle), glm::sin(angle));
-        const float light = 0.62F + 0.5F * static_cast<float>(ring) / 24;
-        drawLeaf(ground, {at, uniform(9, 15), uniform(4, 8), angle + uniform(-0.5F, 0.5F),
-                          green * light * uniform(0.85F, 1.15F), 1.5F + 0.15F * static_cast<float>(ring)});
+        const float light = 0.60F + 0.5F * static_cast<float>(ring) / 40;
+        drawLeaf(ground, {at, uniform(11, 19), uniform(5, 10), angle + uniform(-0.5F, 0.5F),
+                          green * light * uniform(0.85F, 1.15F), 1.5F + 0.1F * static_cast<float>(ring)});
       }
     }
   return finish(ground, {0.3F, 0.12F, 6});
@@ -179,16 +181,15 @@ Image bank() {
 }
 
 Image water() {
-  const Field slow = fbm(kFull, {5, 7}, 3, 0.5F, 621), ripples = fbm(kFull, {16, 26}, 4, 0.55F, 622),
-              bx = fbm(kFull, {6, 6}, 2, 0.5F, 623);
-  const Field moved = warped(ripples, bx, slow, 14);
-  const glm::vec3 deep = srgb(0x3f4a44), shallow = srgb(0x566056);
+  // Slow swell and ripples; the sky in it is the shaders' part.
+  const Field swell = fbm(kFull, {5, 6}, 2, 0.5F, 621), ripples = fbm(kFull, {14, 19}, 3, 0.5F, 622);
+  const glm::vec3 deep = srgb(0x434b44), shallow = srgb(0x555d53);
   return finish(paint(kFull,
                       [&](int, int, size_t i) {
-                        const float t = glm::clamp(0.4F + 0.35F * slow[i] + 0.35F * moved[i], 0.0F, 1.0F);
-                        return Texel{glm::mix(deep, shallow, t), 2.6F * moved[i] + 2.0F * slow[i]};
+                        const float t = glm::clamp(0.45F + 0.30F * swell[i] + 0.25F * ripples[i], 0.0F, 1.0F);
+                        return Texel{glm::mix(deep, shallow, t), 2.0F * ripples[i] + 2.0F * swell[i]};
                       }),
-                {0.5F, 0.05F, 5});
+                {0.34F, 0.03F, 5});
 }
 
 }  // namespace vicus::assets::recipes

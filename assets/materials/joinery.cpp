@@ -8,11 +8,21 @@ using namespace pattern;
 
 Field woodGrain(Size size, int rings, uint32_t seed) {
   // Streaks along y, bent by a slow wave, as a sawn face cuts the rings.
-  const Field streaks = fbm(size, {rings, 2}, 4, 0.75F, seed),
+  const Field streaks = fbm(size, {rings, 2}, 4, 0.9F, seed),
               fibres = fbm(size, {glm::min(rings * 4, size.width / 2), 12}, 2, 0.7F, seed + 1);
   const Field bend = fbm(size, {4, 3}, 2, 0.4F, seed + 2), still(size);
-  Field grainField = warped(streaks, bend, still, 0.9F * static_cast<float>(size.width) / static_cast<float>(rings));
-  for (size_t i = 0; i < grainField.texels.size(); ++i) grainField[i] = 0.8F * grainField[i] + 0.45F * fibres[i];
+  Field grainField = displaced(streaks, bend, still, 0.9F * static_cast<float>(size.width) / static_cast<float>(rings));
+  for (size_t i = 0; i < grainField.texels.size(); ++i) grainField[i] = 0.75F * grainField[i] + 0.4F * fibres[i];
+  // Pores: fine dark strokes that follow the grain.
+  city::Random random(seed + 3);
+  const auto uniform = [&](float lo, float hi) { return static_cast<float>(random.uniform(lo, hi)); };
+  const auto count = static_cast<int>(size.texels() / 110);
+  for (int n = 0; n < count; ++n) {
+    const glm::vec2 at(uniform(0, static_cast<float>(size.width)), uniform(0, static_cast<float>(size.height)));
+    const float length = uniform(8, 46), depth = uniform(0.3F, 1.3F);
+    overStroke(size, at, at + glm::vec2(uniform(-1.2F, 1.2F), length), uniform(0.5F, 0.9F), 0.3F,
+               [&](size_t i, float cover, float) { grainField[i] -= cover * depth; });
+  }
   return grainField;
 }
 
@@ -67,18 +77,36 @@ void stud(Surface& surface, glm::vec2 at, float radius, glm::vec3 colour, float 
 }  // namespace
 
 Image timber() {
-  // Old oak beams: silvered, with shakes (cracks along the grain).
-  const Field wood = woodGrain(kFull, 30, 400), shakes = fbm(kFull, {26, 3}, 3, 0.6F, 401), speck = grain(kFull, 402);
-  const Field clouds = fbm(kFull, {4, 4}, 4, 0.6F, 403), adze = fbm(kFull, {6, 14}, 2, 0.5F, 404);
-  const glm::vec3 brown = srgb(0x5d4a39), silver = srgb(0x756858);
+  // Old oak beams: silvered, with shakes (cracks along the grain) and the facets of the adze.
+  const Field wood = woodGrain(kFull, 34, 400), speck = grain(kFull, 402);
+  const Field clouds = fbm(kFull, {6, 3}, 4, 0.6F, 403), adze = fbm(kFull, {6, 12}, 2, 0.5F, 404);
+  Field shakes(kFull);
+  city::Random random(405);
+  const auto uniform = [&](float lo, float hi) { return static_cast<float>(random.uniform(lo, hi)); };
+  for (int n = 0; n < 46; ++n) {
+    glm::vec2 at(uniform(0, 512), uniform(0, 512));
+    const float width = uniform(0.9F, 2.6F);
+    const int steps = 3 + static_cast<int>(random.below(7));
+    for (int step = 0; step < steps; ++step) {
+      // Thin at both ends, jogging a little from fibre to fibre.
+      const auto open = [&](int s) {
+        return width * (1 - glm::abs(2 * static_cast<float>(s) / static_cast<float>(steps) - 1));
+      };
+      const glm::vec2 to = at + glm::vec2(uniform(-1.5F, 1.5F), uniform(14, 26));
+      overStroke(kFull, at, to, glm::max(0.3F, open(step)), glm::max(0.3F, open(step + 1)),
+                 [&](size_t i, float cover, float) { shakes[i] = glm::max(shakes[i], cover); });
+      at = to;
+    }
+  }
+  const glm::vec3 brown = srgb(0x584839), silver = srgb(0x776c5f);
   return finish(paint(kFull,
                       [&](int, int, size_t i) {
-                        const float shake = smoothly(0.90F, 1.25F, shakes[i] + 0.25F * wood[i]);
-                        const float tone = (1 + 0.2F * wood[i] + 0.05F * speck[i]) * (1 - 0.6F * shake);
-                        return Texel{glm::mix(brown, silver, glm::clamp(0.45F + 0.5F * clouds[i], 0.0F, 1.0F)) * tone,
-                                     0.9F * wood[i] + 1.5F * adze[i] - 2.2F * shake + 0.15F * speck[i]};
+                        const float tone = (1 + 0.17F * wood[i] + 0.05F * speck[i]) * (1 - 0.72F * shakes[i]);
+                        const float age = glm::clamp(0.45F + 0.35F * clouds[i] + 0.22F * wood[i], 0.0F, 1.0F);
+                        return Texel{glm::mix(brown, silver, age) * tone,
+                                     0.7F * wood[i] + 1.6F * adze[i] - 2.0F * shakes[i] + 0.15F * speck[i]};
                       }),
-                {0.34F, 0.2F, 4});
+                {0.32F, 0.16F, 4});
 }
 
 Image oak() {
@@ -88,7 +116,7 @@ Image oak() {
                       [&](int, int, size_t i) {
                         const float ray = smoothly(0.8F, 1.2F, rays[i]);
                         const float tone = 1 + 0.15F * wood[i] + 0.06F * ray + 0.05F * clouds[i];
-                        return Texel{srgb(0x7d6247) * tone, 0.5F * wood[i]};
+                        return Texel{srgb(0x7b644c) * tone, 0.5F * wood[i]};
                       }),
                 {0.26F, 0.15F, 4});
 }
@@ -108,21 +136,19 @@ Image planks() {
 }
 
 Image door() {
-  // Oak boards with studs along hidden ledges and two strap hinges.
-  Surface leaf = boards(kFull, 5, 0.1F, {srgb(0x5f4936), srgb(0x57432f), srgb(0x69523c), srgb(0x5c4a3b)}, 3.2F, 460);
-  const glm::vec3 ironColour = srgb(0x37332f);
+  // Oak boards with iron straps and studs from edge to edge, so that a door may begin anywhere in the picture.
+  Surface leaf = boards(kFull, 5, 0.1F, {srgb(0x5f4d3c), srgb(0x574635), srgb(0x695643), srgb(0x5c4e41)}, 3.2F, 460);
+  const Field rough = fbm(kFull, {40, 40}, 3, 0.7F, 461);
+  const glm::vec3 ironColour = srgb(0x393632);
   for (const float y : {92.0F, 416.0F}) {
-    repaint(leaf, {6, y - 7, 430, y + 7}, [&](int x, int yy, const Texel& under, int edge) {
-      // The strap narrows to a spear at its end.
-      const float half = 7 - 4.5F * smoothly(20, 400, static_cast<float>(x)) +
-                         3.5F * smoothly(24, 0, glm::abs(static_cast<float>(x) - 402));
-      if (glm::abs(static_cast<float>(yy) + 0.5F - y) > half) return under;
-      const float speckle = chance(static_cast<uint32_t>(x * 3 + yy * 977), 461);
-      return Texel{ironColour * (0.85F + 0.3F * speckle), 4.0F + (edge == 0 ? -0.8F : 0.0F) + 0.2F * speckle};
+    repaint(leaf, {0, y - 6, 512, y + 6}, [&](int x, int yy, const Texel&, int) {
+      const float away = glm::abs(static_cast<float>(yy) + 0.5F - y);
+      const float r = rough[static_cast<size_t>(yy) * 512 + static_cast<size_t>(x)];
+      return Texel{ironColour * (1 + 0.16F * r), 5 - 1.2F * smoothly(3.5F, 6, away) + 0.4F * r};
     });
-    for (int k = 0; k < 5; ++k) stud(leaf, {30 + 92 * static_cast<float>(k), y}, 3.2F, ironColour * 1.3F, 2.0F);
+    for (int k = 0; k < 8; ++k) stud(leaf, {32 + 64 * static_cast<float>(k), y}, 3.2F, ironColour * 1.3F, 2.0F);
   }
-  for (const float y : {176.0F, 254.0F, 332.0F, 490.0F, 22.0F})
+  for (const float y : {22.0F, 173.0F, 254.0F, 335.0F, 486.0F})
     for (int k = 0; k < 10; ++k) stud(leaf, {26 + 51.2F * static_cast<float>(k), y}, 3.4F, ironColour, 2.6F);
   return finish(leaf, {0.36F, 0.2F, 4});
 }
@@ -131,10 +157,10 @@ Image shutter() {
   // A louvred shutter: frame, a middle rail, slats; paint gone chalky. Grey-green, so that a tint can turn it.
   const Size size = kHalf;
   const Field wood = woodGrain(size, 24, 480), worn = fbm(size, {10, 6}, 4, 0.66F, 481), speck = grain(size, 482);
-  const glm::vec3 coat = srgb(0x7c8a80), bare = srgb(0x8d8272);
+  const glm::vec3 coat = srgb(0x7f8a82), bare = srgb(0x847e73);
   const auto painted = [&](size_t i, float tone) {
-    const float chalk = smoothly(0.45F, 1.1F, worn[i] + 0.4F * wood[i]);
-    return glm::mix(coat, bare, 0.6F * chalk) * tone * (1 + 0.05F * wood[i] + 0.03F * speck[i]);
+    const float chalk = smoothly(0.35F, 1.0F, worn[i] + 0.5F * wood[i]);
+    return glm::mix(coat, bare, 0.5F * chalk) * tone * (1 + 0.05F * wood[i] + 0.03F * speck[i]);
   };
   Surface leaf = paint(size, [&](int x, int y, size_t i) {
     const int stile = 26, rail = 20;

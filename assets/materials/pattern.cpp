@@ -9,11 +9,6 @@
 namespace vicus::assets::pattern {
 namespace {
 
-int wrap(int v, int n) {
-  v %= n;
-  return v < 0 ? v + n : v;
-}
-
 size_t index(Size size, int x, int y) {
   return static_cast<size_t>(y) * static_cast<size_t>(size.width) + static_cast<size_t>(x);
 }
@@ -42,7 +37,7 @@ std::vector<Knot> knots(int texels, int cells) {
     const float position = static_cast<float>(x) * static_cast<float>(cells) / static_cast<float>(texels);
     const int cell = static_cast<int>(position);
     Knot& k = result[static_cast<size_t>(x)];
-    for (int n = 0; n < 4; ++n) k.at[static_cast<size_t>(n)] = wrap(cell + n - 1, cells);
+    for (int n = 0; n < 4; ++n) k.at[static_cast<size_t>(n)] = wrapped(cell + n - 1, cells);
     k.weight = splineWeights(position - static_cast<float>(cell));
   }
   return result;
@@ -86,11 +81,11 @@ void addNoise(Field& field, glm::ivec2 cells, float amplitude, uint32_t seed) {
 void boxPass(const float* in, float* out, int length, size_t stride, int radius) {
   const float scale = 1.0F / static_cast<float>(2 * radius + 1);
   float sum = 0;
-  for (int n = -radius; n <= radius; ++n) sum += in[static_cast<size_t>(wrap(n, length)) * stride];
+  for (int n = -radius; n <= radius; ++n) sum += in[static_cast<size_t>(wrapped(n, length)) * stride];
   for (int n = 0; n < length; ++n) {
     out[static_cast<size_t>(n) * stride] = sum * scale;
-    sum += in[static_cast<size_t>(wrap(n + radius + 1, length)) * stride] -
-           in[static_cast<size_t>(wrap(n - radius, length)) * stride];
+    sum += in[static_cast<size_t>(wrapped(n + radius + 1, length)) * stride] -
+           in[static_cast<size_t>(wrapped(n - radius, length)) * stride];
   }
 }
 
@@ -99,7 +94,7 @@ void boxPassDown(const Field& in, Field& out, int radius) {
   const auto width = static_cast<size_t>(in.size.width);
   const int height = in.size.height;
   const float scale = 1.0F / static_cast<float>(2 * radius + 1);
-  const auto row = [&](int y) { return in.texels.data() + static_cast<size_t>(wrap(y, height)) * width; };
+  const auto row = [&](int y) { return in.texels.data() + static_cast<size_t>(wrapped(y, height)) * width; };
   std::vector<float> sum(width, 0.0F);
   for (int n = -radius; n <= radius; ++n)
     for (size_t x = 0; x < width; ++x) sum[x] += row(n)[x];
@@ -151,7 +146,7 @@ void bleed(Image& image) {
         glm::ivec3 total(0);
         for (const glm::ivec2 d :
              {glm::ivec2(step, 0), glm::ivec2(-step, 0), glm::ivec2(0, step), glm::ivec2(0, -step)}) {
-          const size_t j = index(size, wrap(x + d.x, size.width), wrap(y + d.y, size.height));
+          const size_t j = index(size, wrapped(x + d.x, size.width), wrapped(y + d.y, size.height));
           if (!before[j]) continue;
           total += glm::ivec3(image.rgba[4 * j], image.rgba[4 * j + 1], image.rgba[4 * j + 2]);
           ++count;
@@ -212,7 +207,7 @@ Field blurred(const Field& field, int radius) {
   return result;
 }
 
-Field warped(const Field& field, const Field& dx, const Field& dy, float texels) {
+Field displaced(const Field& field, const Field& dx, const Field& dy, float texels) {
   assert(field.size == dx.size && field.size == dy.size);
   Field result(field.size);
   const Size size = field.size;
@@ -224,8 +219,8 @@ Field warped(const Field& field, const Field& dx, const Field& dy, float texels)
       const float py = static_cast<float>(y + 4 * size.height) + dy[i] * texels;
       const int ix = static_cast<int>(px), iy = static_cast<int>(py);
       const float fx = px - static_cast<float>(ix), fy = py - static_cast<float>(iy);
-      const int x0 = wrap(ix, size.width), x1 = x0 + 1 == size.width ? 0 : x0 + 1;
-      const int y0 = wrap(iy, size.height), y1 = y0 + 1 == size.height ? 0 : y0 + 1;
+      const int x0 = wrapped(ix, size.width), x1 = x0 + 1 == size.width ? 0 : x0 + 1;
+      const int y0 = wrapped(iy, size.height), y1 = y0 + 1 == size.height ? 0 : y0 + 1;
       const float bottom = field[index(size, x0, y0)] * (1 - fx) + field[index(size, x1, y0)] * fx;
       const float top = field[index(size, x0, y1)] * (1 - fx) + field[index(size, x1, y1)] * fx;
       result[i] = bottom * (1 - fy) + top * fy;
@@ -233,53 +228,64 @@ Field warped(const Field& field, const Field& dx, const Field& dy, float texels)
   return result;
 }
 
-Cells voronoi(Size size, glm::ivec2 cells, float jitter, float wobble, uint32_t seed) {
+Cells voronoi(Size size, glm::ivec2 cells, float jitter, float wobble, uint32_t seed, float stretch) {
   Cells result{size, static_cast<uint32_t>(cells.x * cells.y), std::vector<CellTexel>(size.texels())};
   const glm::vec2 cell(static_cast<float>(size.width) / static_cast<float>(cells.x),
                        static_cast<float>(size.height) / static_cast<float>(cells.y));
-  // The points with a border of one cell round them, so that neighbours need no wrapping.
-  const int stride = cells.x + 2;
+  // The points with a border of two cells round them, so that neighbours need no wrapping.
+  const int stride = cells.x + 4;
   struct Point {
     glm::vec2 at;
     uint32_t id;
   };
   std::vector<Point> points;
-  points.reserve(static_cast<size_t>(stride * (cells.y + 2)));
-  for (int j = -1; j <= cells.y; ++j)
-    for (int i = -1; i <= cells.x; ++i) {
-      const auto id = static_cast<uint32_t>(wrap(j, cells.y) * cells.x + wrap(i, cells.x));
+  points.reserve(static_cast<size_t>(stride * (cells.y + 4)));
+  for (int j = -2; j < cells.y + 2; ++j)
+    for (int i = -2; i < cells.x + 2; ++i) {
+      const auto id = static_cast<uint32_t>(wrapped(j, cells.y) * cells.x + wrapped(i, cells.x));
       const uint32_t h = city::hash32(seed, id);
       const glm::vec2 offset(signedChance(h), signedChance(city::hash32(h)));
       points.push_back({(glm::vec2(i, j) + 0.5F + 0.5F * jitter * offset) * cell, id});
     }
+  // Distances are taken with y squashed; the nine candidates of a cell serve all of its texels.
+  const float squash = 1 / stretch;
+  constexpr size_t kCandidates = 9;
+  std::array<float, kCandidates> qx{}, qy{}, f{};
+  std::array<uint32_t, kCandidates> id{};
+  glm::ivec2 loaded(-1);
   const glm::ivec2 bends(glm::max(cells.x * 2, 4), glm::max(cells.y * 2, 4));
   const Field bendX = fbm(size, bends, 3, 0.6F, city::hash32(seed, 101)),
               bendY = fbm(size, bends, 3, 0.6F, city::hash32(seed, 102));
+  const glm::vec2 perTexel = 1.0F / cell;
   size_t i = 0;
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x, ++i) {
-      glm::vec2 p(static_cast<float>(x) + 0.5F + wobble * bendX[i], static_cast<float>(y) + 0.5F + wobble * bendY[i]);
-      const glm::ivec2 c(glm::clamp(static_cast<int>(p.x / cell.x), 0, cells.x - 1),
-                         glm::clamp(static_cast<int>(p.y / cell.y), 0, cells.y - 1));
-      const Point* nearest = nullptr;
-      const Point* second = nullptr;
-      float f1 = 1e30F, f2 = 1e30F;
-      for (int dj = 0; dj < 3; ++dj)
-        for (int di = 0; di < 3; ++di) {
-          const Point& q = points[static_cast<size_t>((c.y + dj) * stride + c.x + di)];
-          const glm::vec2 d = q.at - p;
-          const float f = d.x * d.x + d.y * d.y;
-          if (f < f1) {
-            f2 = f1, second = nearest;
-            f1 = f, nearest = &q;
-          } else if (f < f2) {
-            f2 = f, second = &q;
-          }
+      const glm::vec2 p(static_cast<float>(x) + 0.5F + wobble * bendX[i],
+                        static_cast<float>(y) + 0.5F + wobble * bendY[i]);
+      // The first of the 3 × 3 cells about p's own, counted in the bordered table; wobble may have moved p out by one.
+      const glm::ivec2 c(glm::clamp(static_cast<int>(p.x * perTexel.x + 1), 0, cells.x + 1),
+                         glm::clamp(static_cast<int>(p.y * perTexel.y + 1), 0, cells.y + 1));
+      if (c != loaded) {
+        for (size_t k = 0; k < kCandidates; ++k) {
+          const Point& q = points[static_cast<size_t>((c.y + static_cast<int>(k / 3)) * stride + c.x) + k % 3];
+          qx[k] = q.at.x, qy[k] = q.at.y * squash, id[k] = q.id;
         }
-      const glm::vec2 between = second->at - nearest->at;
-      const float length = std::sqrt(between.x * between.x + between.y * between.y);
-      const glm::vec2 local = 2.0F * (p - nearest->at) / cell;
-      result.texels[i] = {(f2 - f1) / (2 * length), local.x, local.y, nearest->id};
+        loaded = c;
+      }
+      const float px = p.x, py = p.y * squash;
+      for (size_t k = 0; k < kCandidates; ++k) f[k] = (qx[k] - px) * (qx[k] - px) + (qy[k] - py) * (qy[k] - py);
+      size_t nearest = 0;
+      for (size_t k = 1; k < kCandidates; ++k)
+        if (f[k] < f[nearest]) nearest = k;
+      // The nearest bisector lies at the smallest (f − f1) / 2|q − q1|; its square is compared without dividing.
+      float over = 1e12F, under = 1;
+      for (size_t k = 0; k < kCandidates; ++k) {
+        const float dx = qx[k] - qx[nearest], dy = qy[k] - qy[nearest];
+        const float gap = f[k] - f[nearest], between = dx * dx + dy * dy;
+        if (k != nearest && gap * gap * under < over * between) over = gap * gap, under = between;
+      }
+      result.texels[i] = {0.5F * std::sqrt(over / under), 2 * (px - qx[nearest]) * perTexel.x,
+                          2 * (py - qy[nearest]) * stretch * perTexel.y, id[nearest]};
     }
   return result;
 }
@@ -420,35 +426,11 @@ std::vector<Course> ashlarCourses(Size size, int courseCount, int perCourse, flo
 }
 
 void drawStroke(Surface& surface, const Stroke& s) {
-  const Size size = surface.size;
-  const glm::vec2 d = s.to - s.from;
-  const float length2 = glm::max(glm::dot(d, d), 1e-6F);
-  const float reach = 0.5F * glm::max(s.widthFrom, s.widthTo) + 0.5F;
-  const glm::ivec2 lo(glm::floor(glm::min(s.from, s.to) - reach)), hi(glm::ceil(glm::max(s.from, s.to) + reach));
-  for (int y = lo.y; y <= hi.y; ++y) {
-    // Only the span of this row that the stroke's line, thickened, can reach.
-    int from = lo.x, to = hi.x;
-    if (std::abs(d.y) > 0.5F) {
-      const float slope = d.x / d.y;
-      const float middle = s.from.x + (static_cast<float>(y) + 0.5F - s.from.y) * slope;
-      const float half = (reach + 1) * std::sqrt(1 + slope * slope) + 1;
-      from = glm::max(from, static_cast<int>(middle - half) - 1);
-      to = glm::min(to, static_cast<int>(middle + half) + 1);
-    }
-    const size_t row = index(size, 0, wrap(y, size.height));
-    for (int x = from; x <= to; ++x) {
-      const glm::vec2 p = glm::vec2(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F) - s.from;
-      const float t = glm::clamp((p.x * d.x + p.y * d.y) / length2, 0.0F, 1.0F);
-      const glm::vec2 off = p - t * d;
-      const float half = 0.5F * (s.widthFrom + (s.widthTo - s.widthFrom) * t);
-      const float far2 = off.x * off.x + off.y * off.y;
-      if (far2 >= (half + 0.5F) * (half + 0.5F)) continue;
-      const float cover = glm::min(glm::min(half + 0.5F - std::sqrt(far2), 1.0F), 2 * half + 0.2F);
-      Texel& texel = surface.texels[row + static_cast<size_t>(wrap(x, size.width))];
-      texel.colour += cover * (s.colour - texel.colour);
-      texel.height += cover * (s.height * t - texel.height);
-    }
-  }
+  overStroke(surface.size, s.from, s.to, s.widthFrom, s.widthTo, [&](size_t i, float cover, float t) {
+    Texel& texel = surface.texels[i];
+    texel.colour += cover * (s.colour - texel.colour);
+    texel.height += cover * (s.height * t - texel.height);
+  });
 }
 
 void drawLeaf(Surface& surface, const Leaf& leaf) {
@@ -457,7 +439,7 @@ void drawLeaf(Surface& surface, const Leaf& leaf) {
   const float reach = 0.5F * leaf.length + 1;
   const glm::ivec2 lo(glm::floor(leaf.centre - reach)), hi(glm::ceil(leaf.centre + reach));
   for (int y = lo.y; y <= hi.y; ++y) {
-    const size_t row = index(size, 0, wrap(y, size.height));
+    const size_t row = index(size, 0, wrapped(y, size.height));
     for (int x = lo.x; x <= hi.x; ++x) {
       const glm::vec2 p = glm::vec2(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F) - leaf.centre;
       const float along = 2 * (p.x * axis.x + p.y * axis.y) / leaf.length;
@@ -468,7 +450,7 @@ void drawLeaf(Surface& surface, const Leaf& leaf) {
       const float out = glm::abs(across) / outline;
       if (out >= 1) continue;
       const float rib = 1 - smoothly(0.0F, 0.22F, out);
-      const size_t i = row + static_cast<size_t>(wrap(x, size.width));
+      const size_t i = row + static_cast<size_t>(wrapped(x, size.width));
       // The two halves catch the light differently.
       surface.texels[i] = {leaf.colour * (1 + 0.10F * rib + (across > 0 ? 0.05F : -0.05F)),
                            leaf.height + 0.5F * (1 - out)};
@@ -487,8 +469,8 @@ Image finish(const Surface& surface, const Light& light) {
   for (size_t i = 0; i < size.texels(); ++i) height[i] = surface.texels[i].height;
   const Field around = blurred(height, light.cavityRadius);
   for (int y = 0; y < size.height; ++y) {
-    const size_t row = index(size, 0, y), above = index(size, 0, wrap(y + 1, size.height)),
-                 below = index(size, 0, wrap(y - 1, size.height));
+    const size_t row = index(size, 0, y), above = index(size, 0, wrapped(y + 1, size.height)),
+                 below = index(size, 0, wrapped(y - 1, size.height));
     for (int x = 0; x < size.width; ++x) {
       const auto column = static_cast<size_t>(x);
       const size_t i = row + column;

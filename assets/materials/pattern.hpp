@@ -19,6 +19,13 @@ struct Size {
   size_t texels() const { return static_cast<size_t>(width) * static_cast<size_t>(height); }
 };
 
+/// v brought into 0 … n − 1 by whole turns.
+inline int wrapped(int v, int n) {
+  if (v >= 0 && v < n) return v;
+  v %= n;
+  return v < 0 ? v + n : v;
+}
+
 /// One float for each texel.
 struct Field {
   Size size;
@@ -45,7 +52,7 @@ Field grain(Size size, uint32_t seed);
 Field blurred(const Field& field, int radius);
 
 /// `field` read at each texel moved by (dx, dy) · `texels`, bilinear.
-Field warped(const Field& field, const Field& dx, const Field& dy, float texels);
+Field displaced(const Field& field, const Field& dx, const Field& dy, float texels);
 
 /// Where a texel lies in its stone, brick or tile.
 struct CellTexel {
@@ -63,10 +70,10 @@ struct Cells {
 };
 
 /// Voronoi cells of points jittered (0 … 1) about a lattice; what rubble, cobbles and flints look like. `wobble` moves
-/// the borders by noise, in texels.
-/// Based on: Worley, "A Cellular Texture Basis Function" (1996); the edge is the distance to the bisector with the
-/// second nearest point.
-Cells voronoi(Size size, glm::ivec2 cells, float jitter, float wobble, uint32_t seed);
+/// the borders by noise, in texels, by less than a cell. `stretch`: how many times taller than wide cells want to be.
+/// Based on: Worley, "A Cellular Texture Basis Function" (1996); the edge is the distance to the nearest
+/// bisector, which unlike F2 − F1 gives joints of even width.
+Cells voronoi(Size size, glm::ivec2 cells, float jitter, float wobble, uint32_t seed, float stretch = 1);
 
 /// One course of a wall: its height and the texel at which each of its blocks begins, ascending, the last wrapping
 /// round to the first.
@@ -132,6 +139,39 @@ void repaint(Surface& surface, const Rect& rect, F&& texel) {
       const int edge = glm::min(glm::min(x - x0, x1 - 1 - x), glm::min(y - y0, y1 - 1 - y));
       t = texel(x, y, t, edge);
     }
+}
+
+/// Calls `texel(i, cover, t)` for the texels that a line from `from` to `to`, tapering from one width to the other,
+/// covers by 0 < cover ≤ 1; t is 0 … 1 along it. Wraps round.
+template <class F>
+void overStroke(Size size, glm::vec2 from, glm::vec2 to, float widthFrom, float widthTo, F&& texel) {
+  const glm::vec2 d = to - from;
+  const float length2 = glm::max(d.x * d.x + d.y * d.y, 1e-6F);
+  const float reach = 0.5F * glm::max(widthFrom, widthTo) + 0.5F;
+  const glm::ivec2 lo(glm::floor(glm::min(from, to) - reach)), hi(glm::ceil(glm::max(from, to) + reach));
+  for (int y = lo.y; y <= hi.y; ++y) {
+    int x0 = lo.x, x1 = hi.x;
+    // Only the span of this row that the thickened line can reach.
+    if (glm::abs(d.y) > 0.5F) {
+      const float slope = d.x / d.y;
+      const float middle = from.x + (static_cast<float>(y) + 0.5F - from.y) * slope;
+      const float half = (reach + 1) * (1 + glm::abs(slope)) + 1;
+      x0 = glm::max(x0, static_cast<int>(middle - half) - 1);
+      x1 = glm::min(x1, static_cast<int>(middle + half) + 1);
+    }
+    const size_t row = static_cast<size_t>(wrapped(y, size.height)) * static_cast<size_t>(size.width);
+    for (int x = x0; x <= x1; ++x) {
+      const glm::vec2 p(static_cast<float>(x) + 0.5F - from.x, static_cast<float>(y) + 0.5F - from.y);
+      const float t = glm::clamp((p.x * d.x + p.y * d.y) / length2, 0.0F, 1.0F);
+      const float offX = p.x - t * d.x, offY = p.y - t * d.y;
+      const float half = 0.5F * (widthFrom + (widthTo - widthFrom) * t);
+      const float far2 = offX * offX + offY * offY;
+      if (far2 >= (half + 0.5F) * (half + 0.5F)) continue;
+      // Lines thinner than a texel fade instead of breaking up.
+      const float cover = glm::min(glm::min(half + 0.5F - glm::sqrt(far2), 1.0F), 2 * half + 0.2F);
+      texel(row + static_cast<size_t>(wrapped(x, size.width)), cover, t);
+    }
+  }
 }
 
 /// A tapering blade, straw or hair.

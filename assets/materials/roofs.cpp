@@ -39,7 +39,7 @@ Surface lappedRoof(const Lapped& look) {
     looks[id].tilt = chance(key, 6) - 0.5F;
   }
   const Field face = fbm(size, {36, 36}, 4, 0.7F, look.seed + 2), speck = grain(size, look.seed + 3);
-  const Field moss = fbm(size, {7, 7}, 5, 0.66F, look.seed + 4), clouds = fbm(size, {4, 4}, 3, 0.6F, look.seed + 5);
+  const Field moss = fbm(size, {13, 13}, 5, 0.72F, look.seed + 4), clouds = fbm(size, {4, 4}, 3, 0.6F, look.seed + 5);
   return paint(size, [&](int, int, size_t i) {
     const CellTexel& c = tiles[i];
     const TileLook& t = looks[c.id];
@@ -50,7 +50,7 @@ Surface lappedRoof(const Lapped& look) {
     const float shadow = smoothly(0.30F * rowTexels, 0, (1 - c.up) * rowTexels);
     const float gap = smoothly(1.5F, 0.4F, side), foot = smoothly(0.4F, -0.4F, fromFoot);
     const float dark = glm::min(1.0F, 0.75F * gap + foot);
-    const float grows = look.lichenCover * smoothly(0.30F, 1.0F, moss[i] + 0.35F * face[i]);
+    const float grows = look.lichenCover * smoothly(0.25F, 1.1F, moss[i] + 0.4F * face[i]);
     const glm::vec3 clay = t.colour * (1 + 0.14F * look.roughness * face[i] + 0.07F * look.roughness * speck[i]);
     const float lip = smoothly(3.0F, 0.6F, fromFoot) * (1 - foot);
     const glm::vec3 colour = glm::mix(clay, look.lichen * (1 + 0.2F * face[i]), grows) * (1 - 0.62F * dark) *
@@ -71,7 +71,7 @@ Image tile() {
                             3.0F,
                             1.0F,
                             1.0F,
-                            {srgb(0x8f5b45), srgb(0x7d4d3c), srgb(0x9a6a50), srgb(0x855644), srgb(0x6d463a)},
+                            {srgb(0x8b604d), srgb(0x7a5343), srgb(0x956d57), srgb(0x815b4b), srgb(0x6c4c42)},
                             srgb(0x8d8566),
                             0.42F,
                             300}),
@@ -85,7 +85,7 @@ Image slate() {
                             2.0F,
                             0.7F,
                             0.8F,
-                            {srgb(0x666b70), srgb(0x5a6066), srgb(0x72757a), srgb(0x60646c), srgb(0x6c6a70)},
+                            {srgb(0x686b6d), srgb(0x5d6163), srgb(0x737577), srgb(0x63656a), srgb(0x6b696c)},
                             srgb(0x83846f),
                             0.30F,
                             320}),
@@ -126,7 +126,7 @@ Image lead() {
                         const float drip = smoothly(
                             2.5F, 0.5F, glm::abs(static_cast<float>((y + 192 * ((x / 128 + 1) % 2)) % 512) - 60));
                         const float oxide = glm::clamp(0.35F + 0.35F * clouds[i] + 0.35F * streaks[i], 0.0F, 1.0F);
-                        return Texel{glm::mix(fresh, white, oxide) * (1 + 0.03F * speck[i] - 0.25F * drip),
+                        return Texel{glm::mix(fresh, white, oxide) * (1 + 0.03F * speck[i] - 0.16F * drip),
                                      7 * roll + 3.0F * dents[i] + 0.1F * speck[i] - 1.2F * drip};
                       }),
                 {0.34F, 0.10F, 5});

@@ -12,19 +12,18 @@ glm::vec3 plasterColour() {
 
 Surface plasterWall(Size size, glm::vec2 metres, glm::vec3 base, uint32_t seed) {
   const glm::ivec2 perMetre(glm::max(glm::vec2(1), metres));
-  // Clouds of uneven curing, the sweep of the float, sand.
-  const Field clouds = fbm(size, perMetre * 3, 4, 0.55F, seed + 1);
-  const Field sweep = fbm(size, {perMetre.x * 7, perMetre.y * 10}, 3, 0.5F, seed + 2);
+  // Clouds of uneven curing, the arcs of the float, sand.
+  const Field clouds = fbm(size, perMetre * 3, 5, 0.6F, seed + 1);
+  const Field sweep = fbm(size, {perMetre.x * 5, perMetre.y * 6}, 2, 0.45F, seed + 2);
   const Field sand = fbm(size, perMetre * 56, 2, 0.8F, seed + 3);
   const Field speck = grain(size, seed + 4);
   const Cells cracks = voronoi(size, perMetre * 3, 0.95F, 9, seed + 5);
-  const Field cracked = fbm(size, perMetre * 2, 2, 0.6F, seed + 6);
-  const glm::vec3 warm(1.02F, 1.0F, 0.96F);
+  const glm::vec3 warm(1.015F, 1.0F, 0.975F);
   return paint(size, [&](int, int, size_t i) {
-    const float crack = smoothly(0.9F, 0.1F, cracks[i].edge) * smoothly(0.35F, 0.7F, cracked[i]);
-    const float tone = 1 + 0.055F * clouds[i] + 0.03F * sweep[i] + 0.035F * sand[i] + 0.02F * speck[i] - 0.16F * crack;
+    const float crack = smoothly(0.9F, 0.1F, cracks[i].edge) * smoothly(0.35F, 0.7F, sweep[i]);
+    const float tone = 1 + 0.05F * clouds[i] + 0.04F * sand[i] + 0.03F * speck[i] - 0.16F * crack;
     const glm::vec3 tinted = glm::mix(glm::vec3(1), warm, glm::clamp(0.5F + clouds[i], 0.0F, 1.0F));
-    return Texel{base * tinted * tone, 2.2F * sweep[i] + 0.42F * sand[i] + 0.2F * speck[i] - 0.7F * crack};
+    return Texel{base * tinted * tone, 1.7F * sweep[i] + 0.3F * sand[i] + 0.25F * speck[i] - 0.7F * crack};
   });
 }
 
@@ -36,15 +35,15 @@ Image limewash() {
   // Coats brushed crosswise; where they wear thin the plaster below shows.
   const Field upright = fbm(kFull, {96, 10}, 3, 0.6F, 121), level = fbm(kFull, {10, 96}, 3, 0.6F, 122);
   const Field which = fbm(kFull, {7, 7}, 2, 0.5F, 123), worn = fbm(kFull, {6, 6}, 5, 0.62F, 124);
-  const Field sand = fbm(kFull, {110, 110}, 2, 0.8F, 125), sweep = fbm(kFull, {14, 16}, 3, 0.5F, 126);
+  const Field sand = fbm(kFull, {110, 110}, 2, 0.8F, 125), sweep = fbm(kFull, {10, 12}, 2, 0.45F, 126);
   const glm::vec3 coat = srgb(0xe2dccd), under = srgb(0xc8b898);
   return finish(paint(kFull,
                       [&](int, int, size_t i) {
                         const float brush = glm::mix(upright[i], level[i], smoothly(-0.2F, 0.2F, which[i]));
                         const float thin = 0.40F * smoothly(0.35F, 1.05F, worn[i] + 0.2F * brush);
-                        const float tone = 1 + 0.025F * brush + 0.02F * sand[i] + 0.02F * worn[i];
+                        const float tone = 1 + 0.012F * brush + 0.025F * sand[i] + 0.02F * worn[i];
                         return Texel{glm::mix(coat, under, thin) * tone,
-                                     0.5F * brush + 0.35F * sand[i] + 2 * sweep[i] - 0.8F * thin};
+                                     0.22F * brush + 0.4F * sand[i] + 1.7F * sweep[i] - 0.8F * thin};
                       }),
                 {0.28F, 0.2F, 6});
 }
@@ -56,9 +55,9 @@ Surface brickWall(Size size, glm::vec2 metres, bool dark, uint32_t seed) {
   const float texelsPerMetre = static_cast<float>(size.height) / metres.y;
   const float joint = 0.0045F * texelsPerMetre;  // half of it
   const std::array<glm::vec3, 6> palette =
-      dark ? std::array{srgb(0x6b4237), srgb(0x5c3a33), srgb(0x75493a), srgb(0x523833), srgb(0x664740), srgb(0x473535)}
-           : std::array{srgb(0x9c6149), srgb(0x8d5540), srgb(0xa66c52), srgb(0x95604c), srgb(0x825040), srgb(0xab7a60)};
-  const glm::vec3 mortar = dark ? srgb(0x9a8d7a) : srgb(0xb8ab94);
+      dark ? std::array{srgb(0x6a473c), srgb(0x5d4038), srgb(0x744e41), srgb(0x543e39), srgb(0x674c44), srgb(0x4b3c3b)}
+           : std::array{srgb(0x96654f), srgb(0x885a48), srgb(0x9e7159), srgb(0x8f6350), srgb(0x7c5546), srgb(0xa37e67)};
+  const glm::vec3 mortar = dark ? srgb(0x9a8d7a) : srgb(0xbcb09b);
 
   const Cells bond = courses(size, englishBond(size, rows, stretchers, seed), 2.2F, 0.9F, seed + 1);
   std::vector<glm::vec3> bricks(bond.count);
@@ -122,7 +121,7 @@ Surface ashlarWall(Size size, glm::vec2 metres, uint32_t seed) {
   const float texelsPerMetre = static_cast<float>(size.height) / metres.y;
   const float joint = 0.004F * texelsPerMetre;
   const Cells bond = courses(size, ashlarCourses(size, rows, stones, 0.22F, seed), 1.2F, 0.6F, seed + 1);
-  const std::array<glm::vec3, 4> palette{srgb(0xc2b496), srgb(0xb9ac92), srgb(0xc7bb9f), srgb(0xb4a68a)};
+  const std::array<glm::vec3, 4> palette{srgb(0xc0b59d), srgb(0xb7ac97), srgb(0xc5bba5), srgb(0xb2a790)};
   std::vector<glm::vec3> colours(bond.count);
   for (uint32_t id = 0; id < bond.count; ++id) {
     const auto pick = [&](uint32_t salt) { return palette[static_cast<size_t>(chance(id + seed, salt) * 4)]; };
@@ -136,7 +135,7 @@ Surface ashlarWall(Size size, glm::vec2 metres, uint32_t seed) {
     const float in = smoothly(joint - 0.4F, joint + 0.9F, e);
     const float rounded = smoothly(joint - 0.4F, joint + 2.6F, e);
     const glm::vec3 stone = colours[c.id] * (1 + 0.05F * face[i] + 0.035F * bedding[i] + 0.04F * speck[i]);
-    const glm::vec3 lime = srgb(0xaa9d85) * (0.92F + 0.08F * face[i] + 0.05F * speck[i]);
+    const glm::vec3 lime = srgb(0xa89d89) * (0.92F + 0.08F * face[i] + 0.05F * speck[i]);
     return Texel{glm::mix(lime, stone, in) * (1 + 0.045F * clouds[i]),
                  1.3F * rounded + in * (0.8F * face[i] + 0.5F * bedding[i]) + 0.22F * speck[i]};
   });
@@ -148,7 +147,7 @@ Image ashlar() {
 
 Image flint() {
   // Knapped flints: dark glassy faces with white rims, close set in pale lime.
-  const Cells flints = voronoi(kFull, {19, 22}, 0.85F, 4, 220);
+  const Cells flints = voronoi(kFull, {19, 22}, 0.85F, 2.6F, 220);
   const std::array<glm::vec3, 5> palette{srgb(0x4f5154), srgb(0x6a6963), srgb(0x3f4347), srgb(0x827d72),
                                          srgb(0x5b5853)};
   std::vector<glm::vec3> colours(flints.count);
@@ -163,7 +162,7 @@ Image flint() {
   return finish(paint(kFull,
                       [&](int, int, size_t i) {
                         const CellTexel& c = flints[i];
-                        const float e = c.edge + 0.7F * swirl[i];
+                        const float e = c.edge + 0.45F * swirl[i];
                         const float in = smoothly(1.5F, 2.6F, e), inner = smoothly(2.6F, 4.2F, e + 0.9F * swirl[i]);
                         const glm::vec3 face = colours[c.id] * (1 + 0.18F * swirl[i] + 0.05F * speck[i]);
                         const glm::vec3 stone = glm::mix(glm::mix(rind, face, 0.55F), face, inner);
@@ -179,12 +178,12 @@ Image flint() {
 Image concrete() {
   const Field clouds = fbm(kFull, {4, 4}, 5, 0.6F, 241), pores = fbm(kFull, {90, 90}, 2, 0.8F, 242),
               speck = grain(kFull, 243);
-  const Field boards = fbm(kFull, {3, 60}, 2, 0.6F, 244);
+  const Field boards = fbm(kFull, {3, 24}, 3, 0.6F, 244);
   return finish(paint(kFull,
                       [&](int, int, size_t i) {
                         const float pore = smoothly(0.85F, 1.2F, pores[i]);
-                        const float tone = 1 + 0.05F * clouds[i] + 0.02F * boards[i] + 0.03F * speck[i] - 0.2F * pore;
-                        return Texel{srgb(0xa5a29a) * tone, 0.3F * speck[i] + 0.5F * boards[i] - 1.2F * pore};
+                        const float tone = 1 + 0.05F * clouds[i] + 0.012F * boards[i] + 0.03F * speck[i] - 0.2F * pore;
+                        return Texel{srgb(0xa5a29a) * tone, 0.3F * speck[i] + 0.35F * boards[i] - 1.2F * pore};
                       }),
                 {0.3F, 0.2F, 4});
 }
