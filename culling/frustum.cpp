@@ -48,6 +48,8 @@ Frustum frustumFromClip(const glm::dmat4& clipFromRelative, const glm::dvec3& or
   const glm::dmat4 rows = glm::transpose(clipFromRelative);
   Frustum frustum;
   frustum.origin = origin;
+  for (glm::length_t i = 0; i < 16; ++i)
+    if (!std::isfinite(rows[i / 4][i % 4])) return frustum;
   addPlane(frustum, rows[3], rows[0], 1);        // left: x ≥ −w
   addPlane(frustum, rows[3], rows[0], -1);       // right: x ≤ w
   addPlane(frustum, rows[3], rows[1], 1);        // bottom: y ≥ −w

@@ -30,8 +30,8 @@ struct Frustum {
 
 /// Planes of clip space −w ≤ x ≤ w, −w ≤ y ≤ w, 0 ≤ z ≤ w for positions relative to `origin` (with origin 0 the matrix
 /// is clipFromWorld itself; relative to the eye it is precise for an eye however far away). A row that gives no plane –
-/// its normal is zero (infinite far plane), lost in rounding, or not finite – is left out, so nothing visible is ever
-/// cut off.
+/// its normal is zero (infinite far plane) or lost in rounding – is left out, and a matrix with an entry that is not
+/// finite gives no planes at all: nothing visible is ever cut off.
 Frustum frustumFromClip(const glm::dmat4& clipFromRelative, const glm::dvec3& origin);
 
 /// The view's frustum, from its eye-relative matrix.
@@ -63,8 +63,9 @@ BoxTest boxTestFor(const Frustum& frustum, const city::Aabbf& reach);
 /// Where a box lies. `mask` has a bit for each plane that the box may cross (begin with `allPlanes`); bits of planes
 /// that the box is wholly inside of are cleared, so that what the box contains need not be tested against them again.
 ///
-/// A box of zero volume is a point, a line or a rectangle like any other box. A box around the eye is crossing. An
-/// empty box contains nothing and is outside. A box with a NaN is crossing: it may be anywhere.
+/// A box of zero volume is a point, a line or a rectangle like any other box. A box around the eye is crossing, or
+/// inside, once it reaches past the near plane; nearer than that it cannot be seen and is outside. An empty box
+/// contains nothing and is outside. A box with a NaN is crossing: it may be anywhere.
 Containment classify(const BoxTest& test, const city::Aabbf& box, uint32_t& mask);
 
 }  // namespace vicus::culling
