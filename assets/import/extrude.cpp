@@ -1,0 +1,211 @@
+#include "assets/import/extrude.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace vicus::assets {
+namespace {
+
+using city::BuildingBuilder;
+using city::PlaneKind;
+
+/// Points nearer to a wall's line than this are no corners of it: metres.
+constexpr double kInLine = 0.03;
+
+/// A footprint whose corners all matter, with what stands against its edges.
+Extrusion::Part merged(const Extrusion::Part& part) {
+  Extrusion::Part out;
+  for (size_t r = 0; r < part.polygon.rings.size(); ++r) {
+    const Ring& ring = part.polygon.rings[r];
+    Ring& kept = out.polygon.rings.emplace_back();
+    std::vector<uint8_t>& shared = out.shared.emplace_back();
+    for (const uint32_t i : cornersOf(ring, part.shared[r], kInLine)) {
+      kept.push_back(ring[i]);
+      shared.push_back(part.shared[r][i]);
+    }
+  }
+  return out;
+}
+
+glm::vec3 at(glm::dvec2 p, double z) {
+  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(z)};
+}
+
+glm::vec2 uv(double u, double v) {
+  return {static_cast<float>(u), static_cast<float>(v)};
+}
+
+/// The wall over the edge a → b, seen from the right of it.
+void addWall(BuildingBuilder& builder, const Extrusion& e, glm::dvec2 a, glm::dvec2 b, bool shared) {
+  const double length = glm::length(b - a);
+  if (!(length > 0)) return;
+  const glm::dvec2 along = (b - a) / length;
+  const int bays = shared || e.height < kSmallestFacadeHeight ? 0 : baysIn(length);
+  const Finish finish = bays > 0 ? e.style.facade : e.style.plain;
+  builder.beginPlane(PlaneKind::Wall, id(finish), at({along.y, -along.x}, 0));
+  if (bays > 0) {
+    const double storeys = storeysIn(e.height);
+    builder.addQuad({at(a, 0), at(b, 0), at(b, e.height), at(a, e.height)},
+                    {uv(0, 0), uv(bays, 0), uv(bays, storeys), uv(0, storeys)}, id(finish));
+    if (e.foundation > 0)
+      builder.addQuad(at(a, -e.foundation), at(b, -e.foundation), at(b, 0), at(a, 0), id(e.style.plain));
+  } else {
+    builder.addQuad(at(a, -e.foundation), at(b, -e.foundation), at(b, e.height), at(a, e.height), id(finish));
+  }
+  builder.addOccluder(
+      {glm::vec2(at(a, 0)), glm::vec2(at(b, 0)), static_cast<float>(-e.foundation), static_cast<float>(e.height)});
+}
+
+/// One slope of a roof: the polygon stands on its first edge, the eave.
+void addSlope(BuildingBuilder& builder, std::initializer_list<glm::dvec3> polygon, Finish finish) {
+  std::vector<glm::vec3> corners;
+  for (const glm::dvec3& p : polygon) corners.emplace_back(p);
+  const std::vector<glm::dvec3> exact(polygon);
+  glm::dvec3 normal(0);
+  for (size_t i = 2; i < exact.size(); ++i) normal += glm::cross(exact[i - 1] - exact[0], exact[i] - exact[0]);
+  if (!(glm::length(normal) > 0)) return;
+  normal = glm::normalize(normal);
+  const glm::dvec3 u = glm::normalize(exact[1] - exact[0]);
+  builder.beginPlane(PlaneKind::Roof, id(finish), glm::vec3(normal));
+  builder.addConvex(corners, glm::vec3(u), glm::vec3(glm::cross(normal, u)), id(finish));
+}
+
+double roofHeight(double run, double pitch) {
+  return std::min(kHighestRoof, run * std::tan(pitch));
+}
+
+/// Two slopes that meet over the middle of the shorter pair of edges, which become gables.
+///
+///      3 ────────── 2
+///      │ ╲          │        ridge from the middle of 3–0 to the middle of 1–2
+///    m ├──────────── n       where 0–1 and 2–3 are the longer pair
+///      │            │
+///      0 ────────── 1
+void addGableRoof(BuildingBuilder& builder, const Extrusion& e, const Ring& ring) {
+  const auto length = [&](size_t i) { return glm::length(ring[(i + 1) % 4] - ring[i]); };
+  const size_t s = length(0) + length(2) >= length(1) + length(3) ? 0 : 1;
+  const glm::dvec2 p0 = ring[s], p1 = ring[s + 1], p2 = ring[(s + 2) % 4], p3 = ring[(s + 3) % 4];
+  const glm::dvec2 n = (p1 + p2) / 2.0, m = (p3 + p0) / 2.0;
+  const double width = (length((s + 1) % 4) + length((s + 3) % 4)) / 2;
+  const double ridge = e.height + roofHeight(width / 2, e.pitch);
+  const glm::dvec3 n3(n, ridge), m3(m, ridge);
+  builder.beginLevel(static_cast<float>(e.height), static_cast<float>(ridge));
+  const auto side = [&](glm::dvec2 a, glm::dvec2 b, glm::dvec3 overB, glm::dvec3 overA) {
+    const glm::dvec3 a3(a, e.height), b3(b, e.height);
+    // Flat where eave and ridge are parallel, else two triangles.
+    const glm::dvec2 eave = glm::normalize(b - a), top = glm::normalize(glm::dvec2(overB - overA));
+    if (std::abs(eave.x * top.y - eave.y * top.x) < 1e-3) {
+      addSlope(builder, {a3, b3, overB, overA}, e.style.roof);
+    } else {
+      addSlope(builder, {a3, b3, overB}, e.style.roof);
+      addSlope(builder, {a3, overB, overA}, e.style.roof);
+    }
+  };
+  side(p0, p1, n3, m3);
+  side(p2, p3, m3, n3);
+  const auto gable = [&](glm::dvec2 a, glm::dvec2 b, glm::dvec3 top) {
+    const glm::dvec2 along = glm::normalize(b - a);
+    builder.beginPlane(PlaneKind::Gable, id(e.style.plain), at({along.y, -along.x}, 0));
+    const glm::vec3 corners[] = {at(a, e.height), at(b, e.height), glm::vec3(top)};
+    builder.addConvex(corners, at(along, 0), {0, 0, 1}, id(e.style.plain));
+  };
+  gable(p1, p2, n3);
+  gable(p3, p0, m3);
+}
+
+/// Slopes from every eave to one point over the middle; the steepest has the pitch asked for.
+void addPyramidRoof(BuildingBuilder& builder, const Extrusion& e, const Polygon& polygon) {
+  const Ring& ring = polygon.rings[0];
+  const glm::dvec2 middle = centroid(polygon);
+  double run = INFINITY;
+  for (size_t i = 0; i < ring.size(); ++i) {
+    const glm::dvec2 a = ring[i], d = glm::normalize(ring[(i + 1) % ring.size()] - a);
+    run = std::min(run, std::abs(d.x * (middle.y - a.y) - d.y * (middle.x - a.x)));
+  }
+  const double top = e.height + roofHeight(run, e.pitch);
+  builder.beginLevel(static_cast<float>(e.height), static_cast<float>(top));
+  for (size_t i = 0; i < ring.size(); ++i)
+    addSlope(
+        builder,
+        {glm::dvec3(ring[i], e.height), glm::dvec3(ring[(i + 1) % ring.size()], e.height), glm::dvec3(middle, top)},
+        e.style.roof);
+}
+
+/// A level surface at the eaves; texture along the longest edge.
+bool addFlatRoof(BuildingBuilder& builder, const Extrusion& e, const Polygon& polygon) {
+  const std::vector<uint32_t> triangles = triangulate(polygon);
+  if (triangles.empty()) return false;
+  const Ring& outer = polygon.rings[0];
+  glm::dvec2 u(1, 0);
+  double longest = 0;
+  for (size_t i = 0; i < outer.size(); ++i) {
+    const glm::dvec2 d = outer[(i + 1) % outer.size()] - outer[i];
+    if (glm::length(d) > longest) longest = glm::length(d), u = d / longest;
+  }
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec2> uvs;
+  for (const Ring& ring : polygon.rings)
+    for (const glm::dvec2& p : ring) {
+      positions.push_back(at(p, e.height));
+      uvs.push_back(uv(glm::dot(p, u), u.x * p.y - u.y * p.x));
+    }
+  builder.beginLevel(static_cast<float>(e.height), static_cast<float>(e.height));
+  builder.beginPlane(PlaneKind::Roof, id(e.style.roof), {0, 0, 1});
+  builder.addTriangles(positions, uvs, triangles, {0, 0, 1}, id(e.style.roof));
+  return true;
+}
+
+}  // namespace
+
+RoofShape roofShapeOf(const Polygon& footprint) {
+  if (footprint.rings.size() != 1) return RoofShape::Flat;
+  const Ring& ring = footprint.rings[0];
+  if (ring.size() > 6 || !isConvex(ring)) return RoofShape::Flat;
+  if (ring.size() != 4) return RoofShape::Pyramid;
+  for (size_t i = 0; i < 4; ++i) {
+    const glm::dvec2 in = glm::normalize(ring[(i + 1) % 4] - ring[i]);
+    const glm::dvec2 out = glm::normalize(ring[(i + 2) % 4] - ring[(i + 1) % 4]);
+    if (std::abs(glm::dot(in, out)) > 0.5) return RoofShape::Pyramid;  // further than 30° from a right angle
+  }
+  return RoofShape::Gable;
+}
+
+std::optional<city::BuildingGeometry> extrude(const Extrusion& e, std::string name) {
+  BuildingBuilder builder(std::move(name));
+  std::vector<Extrusion::Part> parts;
+  std::vector<std::vector<glm::vec2>> footprint;
+  for (const Extrusion::Part& part : e.parts) {
+    Extrusion::Part slim = merged(part);
+    // Merging moves walls by at most 3 cm, which may still make narrow ones cross: then every point is kept.
+    parts.push_back(isPlainlyValid(slim.polygon) ? std::move(slim) : part);
+    for (const Ring& ring : parts.back().polygon.rings) {
+      std::vector<glm::vec2>& line = footprint.emplace_back();
+      for (const glm::dvec2& p : ring) line.emplace_back(p);
+    }
+  }
+  builder.beginLevel(static_cast<float>(-e.foundation), static_cast<float>(e.height));
+  for (const Extrusion::Part& part : parts)
+    for (size_t r = 0; r < part.polygon.rings.size(); ++r) {
+      const Ring& ring = part.polygon.rings[r];
+      for (size_t i = 0; i < ring.size(); ++i)
+        addWall(builder, e, ring[i], ring[(i + 1) % ring.size()], part.shared[r][i] != 0);
+    }
+  for (const Extrusion::Part& part : parts) {
+    switch (roofShapeOf(part.polygon)) {
+      case RoofShape::Gable:
+        addGableRoof(builder, e, part.polygon.rings[0]);
+        break;
+      case RoofShape::Pyramid:
+        addPyramidRoof(builder, e, part.polygon);
+        break;
+      case RoofShape::Flat:
+        if (!addFlatRoof(builder, e, part.polygon)) return std::nullopt;
+        break;
+    }
+  }
+  builder.setFootprint(std::move(footprint));
+  return builder.finish();
+}
+
+}  // namespace vicus::assets

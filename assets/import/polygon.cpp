@@ -1,0 +1,371 @@
+// Based on: GEOS 3.11 (MakeValid; constrained Delaunay of polygons). What is convex or plainly valid does not go
+// through it, which is most of a town.
+#include "assets/import/polygon.hpp"
+
+#include <geos_c.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <unordered_map>
+
+namespace vicus::assets {
+namespace {
+
+double cross(glm::dvec2 a, glm::dvec2 b) {
+  return a.x * b.y - a.y * b.x;
+}
+
+/// > 0: c lies left of a → b.
+double orientation(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
+  return cross(b - a, c - a);
+}
+
+bool withinBox(glm::dvec2 a, glm::dvec2 b, glm::dvec2 p) {
+  return p.x >= std::min(a.x, b.x) && p.x <= std::max(a.x, b.x) && p.y >= std::min(a.y, b.y) &&
+         p.y <= std::max(a.y, b.y);
+}
+
+int sign(double v) {
+  return v > 0 ? 1 : v < 0 ? -1 : 0;
+}
+
+/// Do the closed segments ab and cd have a point in common?
+bool segmentsMeet(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 d) {
+  if (std::max(a.x, b.x) < std::min(c.x, d.x) || std::max(c.x, d.x) < std::min(a.x, b.x) ||
+      std::max(a.y, b.y) < std::min(c.y, d.y) || std::max(c.y, d.y) < std::min(a.y, b.y))
+    return false;
+  const int abc = sign(orientation(a, b, c)), abd = sign(orientation(a, b, d));
+  const int cda = sign(orientation(c, d, a)), cdb = sign(orientation(c, d, b));
+  if (abc * abd < 0 && cda * cdb < 0) return true;
+  return (abc == 0 && withinBox(a, b, c)) || (abd == 0 && withinBox(a, b, d)) || (cda == 0 && withinBox(c, d, a)) ||
+         (cdb == 0 && withinBox(c, d, b));
+}
+
+bool insideRing(const Ring& ring, glm::dvec2 p) {
+  bool inside = false;
+  for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++)
+    if ((ring[i].y > p.y) != (ring[j].y > p.y) &&
+        p.x < (ring[j].x - ring[i].x) * (p.y - ring[i].y) / (ring[j].y - ring[i].y) + ring[i].x)
+      inside = !inside;
+  return inside;
+}
+
+/// Without repeated points, the closing point and spikes (a → b → a). Fewer than three points: nothing.
+Ring withoutRepeats(const Ring& raw) {
+  Ring out;
+  for (const glm::dvec2& p : raw) {
+    const glm::dvec2 q = snapped(p);
+    if (!out.empty() && out.back() == q) continue;
+    out.push_back(q);
+    while (out.size() >= 3 && out[out.size() - 3] == out.back()) out.resize(out.size() - 2);
+  }
+  while (out.size() > 1 && out.front() == out.back()) out.pop_back();
+  while (out.size() >= 3 && out[1] == out.back()) {  // a spike at the seam
+    out.erase(out.begin());
+    out.pop_back();
+    while (out.size() > 1 && out.front() == out.back()) out.pop_back();
+  }
+  if (out.size() < 3) out.clear();
+  return out;
+}
+
+void wind(Ring& ring, bool counterClockwise) {
+  if ((signedArea(ring) > 0) != counterClockwise) std::reverse(ring.begin(), ring.end());
+}
+
+/// A GEOS handle for one thread's use, silent.
+class Geos {
+ public:
+  Geos() : handle_(GEOS_init_r()) {
+    GEOSContext_setNoticeMessageHandler_r(
+        handle_, [](const char*, void*) {}, nullptr);
+    GEOSContext_setErrorMessageHandler_r(
+        handle_, [](const char*, void*) {}, nullptr);
+  }
+  ~Geos() { GEOS_finish_r(handle_); }
+  Geos(const Geos&) = delete;
+  Geos& operator=(const Geos&) = delete;
+  GEOSContextHandle_t handle() const { return handle_; }
+
+  auto own(GEOSGeometry* geometry) const {
+    const auto destroy = [handle = handle_](GEOSGeometry* g) {
+      if (g) GEOSGeom_destroy_r(handle, g);
+    };
+    return std::unique_ptr<GEOSGeometry, decltype(destroy)>(geometry, destroy);
+  }
+
+  GEOSGeometry* polygon(const Polygon& p) const {
+    std::vector<GEOSGeometry*> rings;
+    for (const Ring& ring : p.rings) {
+      GEOSCoordSequence* points = GEOSCoordSeq_create_r(handle_, static_cast<unsigned>(ring.size() + 1), 2);
+      for (size_t i = 0; i <= ring.size(); ++i) {
+        const glm::dvec2& q = ring[i % ring.size()];
+        GEOSCoordSeq_setXY_r(handle_, points, static_cast<unsigned>(i), q.x, q.y);
+      }
+      rings.push_back(GEOSGeom_createLinearRing_r(handle_, points));
+    }
+    if (rings.empty() || std::find(rings.begin(), rings.end(), nullptr) != rings.end()) return nullptr;
+    return GEOSGeom_createPolygon_r(handle_, rings[0], rings.data() + 1, static_cast<unsigned>(rings.size() - 1));
+  }
+
+  Ring ring(const GEOSGeometry* lineRing) const {
+    Ring out;
+    const GEOSCoordSequence* points = GEOSGeom_getCoordSeq_r(handle_, lineRing);
+    unsigned size = 0;
+    if (points) GEOSCoordSeq_getSize_r(handle_, points, &size);
+    for (unsigned i = 0; i + 1 < size; ++i) {
+      glm::dvec2 p;
+      GEOSCoordSeq_getXY_r(handle_, points, i, &p.x, &p.y);
+      out.push_back(p);
+    }
+    return out;
+  }
+
+  /// Appends every polygon within a geometry of any kind.
+  void collect(const GEOSGeometry* geometry, std::vector<Polygon>& out) const {
+    const int type = GEOSGeomTypeId_r(handle_, geometry);
+    if (type == GEOS_POLYGON) {
+      if (GEOSisEmpty_r(handle_, geometry)) return;
+      Polygon p;
+      p.rings.push_back(ring(GEOSGetExteriorRing_r(handle_, geometry)));
+      for (int i = 0; i < GEOSGetNumInteriorRings_r(handle_, geometry); ++i)
+        p.rings.push_back(ring(GEOSGetInteriorRingN_r(handle_, geometry, i)));
+      out.push_back(std::move(p));
+    } else if (type == GEOS_MULTIPOLYGON || type == GEOS_GEOMETRYCOLLECTION) {
+      for (int i = 0; i < GEOSGetNumGeometries_r(handle_, geometry); ++i)
+        collect(GEOSGetGeometryN_r(handle_, geometry, i), out);
+    }
+  }
+
+ private:
+  GEOSContextHandle_t handle_;
+};
+
+/// Drops empty rings, winds the rest; false where the outer ring is gone or too small.
+bool tidy(Polygon& p) {
+  for (size_t i = 0; i < p.rings.size(); ++i) {
+    p.rings[i] = withoutRepeats(p.rings[i]);
+    if (i == 0 && p.rings[0].empty()) return false;
+    wind(p.rings[i], i == 0);
+  }
+  std::erase_if(p.rings, [](const Ring& r) { return r.empty(); });
+  return !p.rings.empty();
+}
+
+struct PointHash {
+  size_t operator()(const glm::dvec2& p) const {
+    return std::hash<double>()(p.x) * 0x9e3779b97f4a7c15ULL ^ std::hash<double>()(p.y);
+  }
+};
+
+}  // namespace
+
+glm::dvec2 snapped(glm::dvec2 p) {
+  return {std::nearbyint(p.x / kSnap) * kSnap, std::nearbyint(p.y / kSnap) * kSnap};
+}
+
+glm::dvec3 snapped(glm::dvec3 p) {
+  return {snapped(glm::dvec2(p)), std::nearbyint(p.z / kSnap) * kSnap};
+}
+
+double signedArea(std::span<const glm::dvec2> ring) {
+  double twice = 0;
+  for (size_t i = 1; i + 1 < ring.size(); ++i) twice += orientation(ring[0], ring[i], ring[i + 1]);
+  return twice / 2;
+}
+
+double area(const Polygon& polygon) {
+  double sum = 0;
+  for (size_t i = 0; i < polygon.rings.size(); ++i) sum += (i == 0 ? 1 : -1) * std::abs(signedArea(polygon.rings[i]));
+  return sum;
+}
+
+glm::dvec2 centroid(const Polygon& polygon) {
+  // Moments of the triangles from one point, so that nothing is lost far from the origin.
+  glm::dvec2 moment(0);
+  double total = 0;
+  const glm::dvec2 o = polygon.rings.at(0).at(0);
+  for (const Ring& ring : polygon.rings)
+    for (size_t i = 0; i < ring.size(); ++i) {
+      const glm::dvec2 a = ring[i] - o, b = ring[(i + 1) % ring.size()] - o;
+      const double w = cross(a, b);
+      total += w;
+      moment += w * (a + b) / 3.0;
+    }
+  return std::abs(total) > 0 ? o + moment / total : o;
+}
+
+bool isConvex(std::span<const glm::dvec2> ring) {
+  if (ring.size() < 3) return false;
+  // Left turns only, and once around: the direction's x changes sign twice.
+  int changes = 0;
+  bool turned = false;
+  int lastSign = 0, firstSign = 0;
+  for (size_t i = 0; i < ring.size(); ++i) {
+    const glm::dvec2 a = ring[i], b = ring[(i + 1) % ring.size()], c = ring[(i + 2) % ring.size()];
+    const double turn = orientation(a, b, c);
+    if (turn < 0 || (turn == 0 && glm::dot(b - a, c - b) <= 0)) return false;
+    turned = turned || turn > 0;
+    const int s = sign(b.x - a.x);
+    if (s == 0) continue;
+    if (firstSign == 0) firstSign = s;
+    if (lastSign != 0 && s != lastSign) ++changes;
+    lastSign = s;
+  }
+  if (lastSign != firstSign) ++changes;
+  return turned && changes <= 2;
+}
+
+bool isPlainlyValid(const Polygon& polygon) {
+  struct Edge {
+    glm::dvec2 a, b;
+    size_t ring, index, size;
+  };
+  std::vector<Edge> edges;
+  for (size_t r = 0; r < polygon.rings.size(); ++r) {
+    const Ring& ring = polygon.rings[r];
+    if (ring.size() < 3) return false;
+    for (size_t i = 0; i < ring.size(); ++i) edges.push_back({ring[i], ring[(i + 1) % ring.size()], r, i, ring.size()});
+  }
+  for (size_t i = 0; i < edges.size(); ++i)
+    for (size_t j = i + 1; j < edges.size(); ++j) {
+      const Edge &e = edges[i], &f = edges[j];
+      const bool next = e.ring == f.ring && f.index == e.index + 1;
+      const bool previous = e.ring == f.ring && e.index == 0 && f.index + 1 == f.size;
+      if (next || previous) {
+        // Neighbours may only meet at their corner: the far end must not lie back on the other edge.
+        const glm::dvec2 far = next ? f.b : f.a;
+        if (orientation(e.a, e.b, far) == 0 && withinBox(e.a, e.b, far)) return false;
+        const glm::dvec2 own = next ? e.a : e.b;
+        if (orientation(f.a, f.b, own) == 0 && withinBox(f.a, f.b, own)) return false;
+      } else if (segmentsMeet(e.a, e.b, f.a, f.b)) {
+        return false;
+      }
+    }
+  for (size_t r = 1; r < polygon.rings.size(); ++r) {
+    if (!insideRing(polygon.rings[0], polygon.rings[r][0])) return false;
+    for (size_t q = 1; q < polygon.rings.size(); ++q)
+      if (q != r && insideRing(polygon.rings[q], polygon.rings[r][0])) return false;
+  }
+  return true;
+}
+
+CleanedPolygons cleanPolygon(const Polygon& raw) {
+  CleanedPolygons out;
+  for (const Ring& ring : raw.rings)
+    for (const glm::dvec2& p : ring)
+      if (!std::isfinite(p.x) || !std::isfinite(p.y)) {
+        out.problem = "a coordinate is not a number";
+        return out;
+      }
+  Polygon p = raw;
+  if (!tidy(p)) {
+    out.problem = "fewer than three different points";
+    return out;
+  }
+  // The quick test is quadratic; beyond this many edges the library's sweep is faster.
+  constexpr size_t kQuickEdges = 120;
+  size_t edges = 0;
+  for (const Ring& ring : p.rings) edges += ring.size();
+  if (edges <= kQuickEdges && isPlainlyValid(p)) {
+    out.polygons.push_back(std::move(p));
+  } else {
+    const Geos geos;
+    const auto geometry = geos.own(geos.polygon(p));
+    if (geometry && GEOSisValid_r(geos.handle(), geometry.get()) == 1) {
+      out.polygons.push_back(std::move(p));
+    } else if (geometry) {
+      out.repaired = true;
+      if (const auto valid = geos.own(GEOSMakeValid_r(geos.handle(), geometry.get())))
+        geos.collect(valid.get(), out.polygons);
+      std::erase_if(out.polygons, [](Polygon& q) { return !tidy(q); });
+    }
+  }
+  double whole = 0;
+  for (const Polygon& q : out.polygons) whole += area(q);
+  std::erase_if(out.polygons, [](const Polygon& q) { return area(q) < kSmallestArea; });
+  if (out.polygons.empty())
+    out.problem = whole > 0 || !out.repaired ? "its area is under 0.1 m²" : "its outline encloses no area";
+  return out;
+}
+
+std::vector<uint32_t> cornersOf(std::span<const glm::dvec2> ring, std::span<const uint8_t> group, double tolerance) {
+  const auto n = static_cast<uint32_t>(ring.size());
+  std::vector<uint32_t> all(n);
+  for (uint32_t i = 0; i < n; ++i) all[i] = i;
+  // Begin at the corner that turns most: it stays in any case.
+  uint32_t start = 0;
+  double best = -1;
+  for (uint32_t i = 0; i < n; ++i) {
+    const glm::dvec2 in = ring[i] - ring[(i + n - 1) % n], out = ring[(i + 1) % n] - ring[i];
+    const double turn = std::abs(std::atan2(cross(in, out), glm::dot(in, out)));
+    if (turn > best) best = turn, start = i;
+  }
+  // Greedily lengthen the current edge while all points that it passes stay near it.
+  std::vector<uint32_t> kept{start};
+  uint32_t from = start;
+  for (uint32_t step = 1; step < n; ++step) {
+    const uint32_t here = (start + step) % n, next = (here + 1) % n;
+    bool drop = group[(here + n - 1) % n] == group[here];
+    const glm::dvec2 a = ring[from], chord = ring[next] - a;
+    const double length = glm::length(chord);
+    for (uint32_t k = (from + 1) % n; drop && k != next; k = (k + 1) % n) {
+      const glm::dvec2 d = ring[k] - a;
+      const double along = glm::dot(d, chord);
+      drop = length > 0 && along >= 0 && along <= length * length && std::abs(cross(chord, d)) <= tolerance * length;
+    }
+    if (drop) continue;
+    kept.push_back(here);
+    from = here;
+  }
+  if (kept.size() < 3) return all;
+  std::sort(kept.begin(), kept.end());
+  return kept;
+}
+
+std::vector<uint32_t> triangulate(const Polygon& polygon) {
+  std::vector<uint32_t> out;
+  if (polygon.rings.empty()) return out;
+  if (polygon.rings.size() == 1 && isConvex(polygon.rings[0])) {
+    const Ring& ring = polygon.rings[0];
+    for (uint32_t i = 2; i < ring.size(); ++i)
+      if (orientation(ring[0], ring[i - 1], ring[i]) > 0) out.insert(out.end(), {0, i - 1, i});
+    return out;
+  }
+  std::unordered_map<glm::dvec2, uint32_t, PointHash> indexOf;
+  Ring points;
+  for (const Ring& ring : polygon.rings)
+    for (const glm::dvec2& p : ring) {
+      indexOf.emplace(p, static_cast<uint32_t>(points.size()));
+      points.push_back(p);
+    }
+
+  const Geos geos;
+  const auto geometry = geos.own(geos.polygon(polygon));
+  if (!geometry) return out;
+  const auto triangles = geos.own(GEOSConstrainedDelaunayTriangulation_r(geos.handle(), geometry.get()));
+  if (!triangles) return out;
+  double covered = 0;
+  const int count = GEOSGetNumGeometries_r(geos.handle(), triangles.get());
+  for (int t = 0; t < count; ++t) {
+    const Ring corners =
+        geos.ring(GEOSGetExteriorRing_r(geos.handle(), GEOSGetGeometryN_r(geos.handle(), triangles.get(), t)));
+    if (corners.size() != 3) return {};
+    uint32_t index[3];
+    for (int k = 0; k < 3; ++k) {
+      const auto found = indexOf.find(corners[static_cast<size_t>(k)]);
+      if (found == indexOf.end()) return {};
+      index[k] = found->second;
+    }
+    const double a = orientation(corners[0], corners[1], corners[2]) / 2;
+    if (a < 0) std::swap(index[1], index[2]);
+    if (a != 0) out.insert(out.end(), {index[0], index[1], index[2]});
+    covered += std::abs(a);
+  }
+  const double whole = area(polygon);
+  if (std::abs(covered - whole) > 1e-6 * whole + 1e-6) return {};
+  return out;
+}
+
+}  // namespace vicus::assets

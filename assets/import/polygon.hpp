@@ -1,0 +1,58 @@
+/// Polygons on the plan: cleaning, repair and triangles.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace vicus::assets {
+
+/// Points of a closed line; the last is joined to the first and not repeated.
+using Ring = std::vector<glm::dvec2>;
+
+/// An outer ring, counter-clockwise, then its holes, clockwise (after `cleanPolygon`; before, any winding).
+struct Polygon {
+  std::vector<Ring> rings;
+};
+
+/// Positions are kept to 1/4096 m. Up to 2 048 m from a building's origin such numbers are exact in float, and the
+/// products of the orientation test are exact in double.
+constexpr double kSnap = 1.0 / 4096;
+glm::dvec2 snapped(glm::dvec2 p);
+glm::dvec3 snapped(glm::dvec3 p);
+
+/// Area in m², positive for a counter-clockwise ring.
+double signedArea(std::span<const glm::dvec2> ring);
+/// Area in m² without the holes.
+double area(const Polygon& polygon);
+glm::dvec2 centroid(const Polygon& polygon);
+
+/// Counter-clockwise, no reflex corner, at least three corners that are not in line.
+bool isConvex(std::span<const glm::dvec2> ring);
+/// No two edges meet but neighbours at their common corner, and holes lie inside the outer ring and outside each other.
+/// False also where holes only touch, which is valid: then ask the geometry library.
+bool isPlainlyValid(const Polygon& polygon);
+
+struct CleanedPolygons {
+  std::vector<Polygon> polygons;  ///< valid; more than one where a repair cut it
+  bool repaired = false;          ///< it crossed or touched itself
+  std::string problem;            ///< why `polygons` is empty
+};
+/// Footprints under this are left out: m².
+constexpr double kSmallestArea = 0.1;
+/// Snaps, drops repeated points and spikes, winds the rings, and repairs what crosses itself (GEOS MakeValid). Points
+/// should lie within a few kilometres of (0, 0).
+CleanedPolygons cleanPolygon(const Polygon& raw);
+
+/// Corners of the ring that matter: points nearer than `tolerance` metres to the line between their kept neighbours are
+/// dropped where `group` (one value for the edge after each point) is the same on both sides. At least three remain, or
+/// the ring is returned as it came. Indices into the ring, ascending.
+std::vector<uint32_t> cornersOf(std::span<const glm::dvec2> ring, std::span<const uint8_t> group, double tolerance);
+
+/// Triangles of a valid polygon: three indices for each, counter-clockwise, into its rings' points one ring after
+/// another. Constrained Delaunay (GEOS). Empty where the library fails or its triangles do not cover the polygon.
+std::vector<uint32_t> triangulate(const Polygon& polygon);
+
+}  // namespace vicus::assets

@@ -1,0 +1,108 @@
+#include "assets/import/projection.hpp"
+
+#include <ogr_spatialref.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <regex>
+#include <vector>
+
+namespace vicus::assets {
+namespace {
+
+/// A CRS from WKT with x east and y north, whatever order its authority states.
+std::optional<OGRSpatialReference> fromWkt(const std::string& wkt) {
+  OGRSpatialReference crs;
+  if (wkt.empty() || crs.importFromWkt(wkt.c_str()) != OGRERR_NONE) return std::nullopt;
+  crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  return crs;
+}
+
+std::string toWkt(const OGRSpatialReference& crs) {
+  char* text = nullptr;
+  static constexpr const char* kOptions[] = {"FORMAT=WKT2_2019", "MULTILINE=NO", nullptr};
+  std::string out;
+  if (crs.exportToWkt(&text, kOptions) == OGRERR_NONE && text) out = text;
+  CPLFree(text);
+  return out;
+}
+
+struct DestroyTransformation {
+  void operator()(OGRCoordinateTransformation* t) const { OGRCoordinateTransformation::DestroyCT(t); }
+};
+using Transformation = std::unique_ptr<OGRCoordinateTransformation, DestroyTransformation>;
+
+}  // namespace
+
+std::string crsFromText(const std::string& text) {
+  // OGC names of EPSG codes in all their spellings, also those that CityJSON uses with https.
+  static const std::regex kEpsg(R"(^\s*(?:https?://(?:www\.)?opengis\.net/def/crs/|urn:(?:x-)?ogc:def:crs:)?)"
+                                R"(EPSG[:/]+(?:[0-9.]*[:/]+)?([0-9]+)\s*$)",
+                                std::regex::icase);
+  std::smatch match;
+  const std::string name = std::regex_match(text, match, kEpsg) ? "EPSG:" + match[1].str() : text;
+  OGRSpatialReference crs;
+  static constexpr const char* kOptions[] = {"ALLOW_NETWORK_ACCESS=NO", "ALLOW_FILE_ACCESS=NO", nullptr};
+  if (name.empty() || crs.SetFromUserInput(name.c_str(), kOptions) != OGRERR_NONE) return {};
+  crs.StripVertical();
+  return toWkt(crs);
+}
+
+CrsKind kindOf(const std::string& wkt) {
+  CrsKind kind;
+  const auto crs = fromWkt(wkt);
+  if (!crs) return kind;
+  kind.known = true;
+  kind.geographic = crs->IsGeographic();
+  if (!kind.geographic) kind.metresPerUnit = crs->GetLinearUnits();
+  return kind;
+}
+
+std::string metricCrs(const std::string& wkt, glm::dvec2 centre) {
+  const auto crs = fromWkt(wkt);
+  if (!crs) return {};
+  if ((crs->IsProjected() || crs->IsLocal()) && std::abs(crs->GetLinearUnits() - 1) < 1e-9) return wkt;
+  OGRSpatialReference degrees;
+  degrees.SetWellKnownGeogCS("WGS84");
+  degrees.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  const Transformation toDegrees(OGRCreateCoordinateTransformation(&*crs, &degrees));
+  if (!toDegrees || !toDegrees->Transform(1, &centre.x, &centre.y)) return {};
+  if (!(std::abs(centre.x) <= 360 && std::abs(centre.y) <= 90)) return {};
+  const double longitude = std::remainder(centre.x, 360.0);
+  const int zone = std::clamp(static_cast<int>(std::floor((longitude + 180) / 6)) + 1, 1, 60);
+  OGRSpatialReference utm;
+  if (utm.importFromEPSG((centre.y >= 0 ? 32600 : 32700) + zone) != OGRERR_NONE) return {};
+  return toWkt(utm);
+}
+
+std::string crsName(const std::string& wkt) {
+  const auto crs = fromWkt(wkt);
+  if (!crs) return {};
+  const char* authority = crs->GetAuthorityName(nullptr);
+  const char* code = crs->GetAuthorityCode(nullptr);
+  return authority && code ? std::string(authority) + ":" + code : wkt;
+}
+
+std::optional<size_t> transform(const std::string& from, const std::string& to, std::span<glm::dvec2> points) {
+  const auto source = fromWkt(from), target = fromWkt(to);
+  if (!source || !target) return std::nullopt;
+  if (source->IsSame(&*target)) return 0;
+  const Transformation t(OGRCreateCoordinateTransformation(&*source, &*target));
+  if (!t) return std::nullopt;
+  std::vector<double> x(points.size()), y(points.size());
+  std::vector<int> ok(points.size(), 0);
+  for (size_t i = 0; i < points.size(); ++i) x[i] = points[i].x, y[i] = points[i].y;
+  t->Transform(static_cast<int>(points.size()), x.data(), y.data(), nullptr, ok.data());
+  size_t failed = 0;
+  for (size_t i = 0; i < points.size(); ++i) {
+    points[i] = {x[i], y[i]};
+    if (ok[i] && std::isfinite(x[i]) && std::isfinite(y[i])) continue;
+    points[i] = glm::dvec2(std::numeric_limits<double>::quiet_NaN());
+    ++failed;
+  }
+  return failed;
+}
+
+}  // namespace vicus::assets

@@ -1,0 +1,467 @@
+// Based on: the divergence theorem for the sign of a shell's volume; Newell's normal of a nearly flat polygon
+// (Sutherland, Sproull, Schumacker 1974).
+#include "assets/import/surfaces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <unordered_map>
+#include <utility>
+
+#include "assets/import/polygon.hpp"
+#include "city/aabb.hpp"
+
+namespace vicus::assets {
+namespace {
+
+using city::PlaneKind;
+
+/// Surfaces smaller than this cannot be seen: m².
+constexpr double kSmallestSurface = 1e-4;
+/// Walls lean at most this far (|normal.z|): 17°.
+constexpr double kWallSlope = 0.3;
+/// Walls whose feet hang higher than this above the ground stand on something else: metres.
+constexpr double kLongestSkirt = 2.5;
+constexpr double kSkirtDepth = 0.3;
+
+/// A surface with its points merged, wound as it will be drawn.
+struct Face {
+  SurfaceKind kind = SurfaceKind::Unknown;
+  uint32_t shell = 0;
+  std::vector<std::vector<uint32_t>> rings;
+  glm::dvec3 areaVector{0};  ///< normal times area, holes taken off
+  glm::dvec3 normal{0, 0, 1};
+  bool bothSides = false;
+};
+
+glm::dvec3 newell(const std::vector<glm::dvec3>& points, const std::vector<uint32_t>& ring) {
+  glm::dvec3 sum(0);
+  const glm::dvec3 o = points[ring[0]];
+  for (size_t i = 1; i + 1 < ring.size(); ++i) sum += glm::cross(points[ring[i]] - o, points[ring[i + 1]] - o);
+  return sum / 2.0;
+}
+
+struct PointHash {
+  size_t operator()(const glm::dvec3& p) const {
+    const std::hash<double> h;
+    return (h(p.x) * 31 + h(p.y)) * 0x9e3779b97f4a7c15ULL ^ h(p.z);
+  }
+};
+
+/// Merges points at one place and drops what has no area.
+std::vector<Face> facesOf(const SurfaceBuilding& building, std::vector<glm::dvec3>& points, SurfaceReport& report) {
+  std::unordered_map<glm::dvec3, uint32_t, PointHash> first;
+  std::vector<uint32_t> merged;
+  for (const glm::dvec3& p : building.points) {
+    const auto [found, isNew] = first.emplace(snapped(p), static_cast<uint32_t>(points.size()));
+    if (isNew) points.push_back(snapped(p));
+    merged.push_back(found->second);
+  }
+  std::vector<Face> faces;
+  for (const Surface& s : building.surfaces) {
+    Face face;
+    face.kind = s.kind, face.shell = s.shell;
+    for (const auto& ring : s.rings) {
+      std::vector<uint32_t> kept;
+      for (const uint32_t i : ring)
+        if (kept.empty() || kept.back() != merged[i]) kept.push_back(merged[i]);
+      while (kept.size() > 1 && kept.front() == kept.back()) kept.pop_back();
+      if (kept.size() >= 3)
+        face.rings.push_back(std::move(kept));
+      else if (face.rings.empty())
+        break;
+    }
+    if (!face.rings.empty()) {
+      face.areaVector = newell(points, face.rings[0]);
+      const double outer = glm::length(face.areaVector);
+      if (outer >= kSmallestSurface) {
+        face.normal = face.areaVector / outer;
+        double holes = 0;
+        for (size_t r = 1; r < face.rings.size(); ++r) holes += glm::length(newell(points, face.rings[r]));
+        face.areaVector = face.normal * std::max(0.0, outer - holes);
+        faces.push_back(std::move(face));
+        continue;
+      }
+    }
+    ++report.leftOut;
+  }
+  return faces;
+}
+
+void turn(Face& face) {
+  for (auto& ring : face.rings) std::reverse(ring.begin(), ring.end());
+  face.areaVector = -face.areaVector, face.normal = -face.normal;
+}
+
+/// Winds every shell outward: neighbours across an edge agree, and the whole has a positive volume.
+void windOutward(std::vector<Face>& faces, const std::vector<glm::dvec3>& points, SurfaceReport& report) {
+  struct Use {
+    size_t face;
+    bool forward;
+  };
+  std::map<std::pair<uint32_t, std::pair<uint32_t, uint32_t>>, std::vector<Use>> edges;
+  const auto forEachEdge = [](const Face& f, const auto& visit) {
+    for (const auto& ring : f.rings)
+      for (size_t i = 0; i < ring.size(); ++i) visit(ring[i], ring[(i + 1) % ring.size()]);
+  };
+  for (size_t f = 0; f < faces.size(); ++f)
+    forEachEdge(faces[f], [&](uint32_t a, uint32_t b) {
+      edges[{faces[f].shell, {std::min(a, b), std::max(a, b)}}].push_back({f, a < b});
+    });
+
+  std::vector<int> side(faces.size(), 0);  // 0 unseen, 1 as it came, -1 to be turned
+  for (size_t seed = 0; seed < faces.size(); ++seed) {
+    if (side[seed] != 0) continue;
+    std::vector<size_t> component{seed};
+    side[seed] = 1;
+    bool closed = true;
+    for (size_t next = 0; next < component.size(); ++next) {
+      const size_t f = component[next];
+      forEachEdge(faces[f], [&](uint32_t a, uint32_t b) {
+        const auto& uses = edges.at({faces[f].shell, {std::min(a, b), std::max(a, b)}});
+        // Where more than two meet, or one face meets itself, nothing follows.
+        if (uses.size() != 2 || uses[0].face == uses[1].face) {
+          closed = closed && uses.size() != 1;
+          return;
+        }
+        const Use& own = uses[0].face == f ? uses[0] : uses[1];
+        const Use& other = uses[0].face == f ? uses[1] : uses[0];
+        if (side[other.face] != 0) return;
+        side[other.face] = own.forward == other.forward ? -side[f] : side[f];
+        component.push_back(other.face);
+      });
+    }
+    city::Aabb box;
+    double area = 0;
+    for (const size_t f : component) {
+      for (const uint32_t i : faces[f].rings[0]) box.extend(points[i]);
+      area += glm::length(faces[f].areaVector);
+    }
+    double volume = 0;
+    for (const size_t f : component)
+      volume += side[f] * glm::dot(points[faces[f].rings[0][0]] - box.centre(), faces[f].areaVector) / 3;
+    // An open sheet encloses nothing; a box without its floor still encloses about a sixth of area × size.
+    const double least = closed ? 0 : 0.01 * area * glm::length(box.size());
+    if (std::abs(volume) <= least) {
+      for (const size_t f : component) {
+        side[f] = 1;
+        Face& face = faces[f];
+        const bool roof = face.kind == SurfaceKind::Roof;
+        if (roof && face.normal.z < 0) turn(face);
+        face.bothSides = !roof;
+      }
+    } else if (volume < 0) {
+      for (const size_t f : component) side[f] = -side[f];
+    }
+  }
+  for (size_t f = 0; f < faces.size(); ++f)
+    if (side[f] < 0) turn(faces[f]), ++report.turned;
+}
+
+SurfaceKind kindFrom(const Face& face, const std::vector<glm::dvec3>& points, double lowest) {
+  if (face.kind != SurfaceKind::Unknown) return face.kind;
+  if (std::abs(face.normal.z) <= kWallSlope) return SurfaceKind::Wall;
+  if (face.normal.z > 0 || face.bothSides) return SurfaceKind::Roof;
+  double highest = -INFINITY;
+  for (const uint32_t i : face.rings[0]) highest = std::max(highest, points[i].z);
+  return highest < lowest + 0.5 ? SurfaceKind::Ground : SurfaceKind::Other;
+}
+
+/// Triangles of a face: corners in space and in its own plane.
+struct Mesh {
+  std::vector<glm::dvec3> positions;
+  std::vector<uint32_t> triangles;
+};
+
+/// Axes of a face: u level and to the right seen from outside, v up the slope. For a level face u runs along its
+/// longest edge.
+struct Axes {
+  glm::dvec3 u, v;
+};
+
+Axes axesOf(const Face& face, const std::vector<glm::dvec3>& points) {
+  glm::dvec3 u = glm::cross(glm::dvec3(0, 0, 1), face.normal);
+  if (glm::length(u) < 0.02) {
+    double longest = 0;
+    const auto& ring = face.rings[0];
+    for (size_t i = 0; i < ring.size(); ++i) {
+      const glm::dvec3 d = points[ring[(i + 1) % ring.size()]] - points[ring[i]];
+      if (glm::length(d) > longest) longest = glm::length(d), u = d;
+    }
+    u -= face.normal * glm::dot(u, face.normal);
+  }
+  u = glm::normalize(u);
+  return {u, glm::cross(face.normal, u)};
+}
+
+Mesh meshOf(const Face& face, const Axes& axes, const std::vector<glm::dvec3>& points, SurfaceReport& report) {
+  const glm::dvec3 o = points[face.rings[0][0]];
+  const auto flat = [&](const glm::dvec3& p) { return glm::dvec2(glm::dot(p - o, axes.u), glm::dot(p - o, axes.v)); };
+  Mesh mesh;
+  Polygon polygon;
+  std::vector<std::vector<uint32_t>> rings = face.rings;
+  for (size_t r = 0; r < rings.size(); ++r) {
+    Ring ring;
+    for (const uint32_t i : rings[r]) ring.push_back(flat(points[i]));
+    if ((signedArea(ring) > 0) != (r == 0)) {
+      std::reverse(ring.begin(), ring.end());
+      std::reverse(rings[r].begin(), rings[r].end());
+    }
+    polygon.rings.push_back(std::move(ring));
+  }
+  if (isPlainlyValid(polygon)) {
+    mesh.triangles = triangulate(polygon);
+    for (const auto& ring : rings)
+      for (const uint32_t i : ring) mesh.positions.push_back(points[i]);
+    if (!mesh.triangles.empty()) return mesh;
+    mesh.positions.clear();
+  }
+
+  // Repaired in its plane; points that it had keep their place in space, new ones lie in the plane.
+  std::map<std::pair<double, double>, glm::dvec3> known;
+  for (const auto& ring : rings)
+    for (const uint32_t i : ring) {
+      const glm::dvec2 q = snapped(flat(points[i]));
+      known.emplace(std::pair(q.x, q.y), points[i]);
+    }
+  const CleanedPolygons cleaned = cleanPolygon(polygon);
+  if (cleaned.repaired) ++report.repaired;
+  for (const Polygon& p : cleaned.polygons) {
+    const auto base = static_cast<uint32_t>(mesh.positions.size());
+    const std::vector<uint32_t> triangles = triangulate(p);
+    if (triangles.empty()) continue;
+    for (const uint32_t t : triangles) mesh.triangles.push_back(base + t);
+    for (const Ring& ring : p.rings)
+      for (const glm::dvec2& q : ring) {
+        const auto found = known.find({q.x, q.y});
+        mesh.positions.push_back(found != known.end() ? found->second : o + axes.u * q.x + axes.v * q.y);
+      }
+  }
+  return mesh;
+}
+
+/// Extent of a face along its axes, from the geometry's origin.
+struct Span {
+  double left = INFINITY, right = -INFINITY, bottom = INFINITY, top = -INFINITY;
+  double width() const { return right - left; }
+  double height() const { return top - bottom; }
+};
+
+Span spanOf(const Face& face, const Axes& axes, const std::vector<glm::dvec3>& points) {
+  Span s;
+  for (const uint32_t i : face.rings[0]) {
+    const double u = glm::dot(points[i], axes.u);
+    s.left = std::min(s.left, u), s.right = std::max(s.right, u);
+    s.bottom = std::min(s.bottom, points[i].z), s.top = std::max(s.top, points[i].z);
+  }
+  return s;
+}
+
+/// The largest level band of an upright wall that it covers over its whole width: from the highest point of its lower
+/// edge to the lowest of its upper one. Nothing where the outline goes back on itself.
+std::optional<city::OccluderLine> occluderOf(const Face& face, const Axes& axes,
+                                             const std::vector<glm::dvec3>& points) {
+  if (std::abs(face.normal.z) > 0.01 || face.rings.size() != 1 || face.bothSides) return std::nullopt;
+  const auto& ring = face.rings[0];
+  const size_t n = ring.size();
+  const auto along = [&](size_t i) { return glm::dot(points[ring[i % n]], axes.u); };
+  size_t left = 0, right = 0;
+  for (size_t i = 0; i < n; ++i) {
+    if (along(i) < along(left)) left = i;
+    if (along(i) > along(right)) right = i;
+  }
+  constexpr double kSame = 0.02;  // metres: points over each other at either end
+  if (along(right) - along(left) < 0.1) return std::nullopt;
+  // Counter-clockwise from outside: the lower edge runs to the right, the upper one back.
+  double bottom = -INFINITY, top = INFINITY;
+  for (size_t i = left; i % n != right; ++i) {
+    if (along(i + 1) < along(i) - kSame) return std::nullopt;
+  }
+  for (size_t i = right; i % n != left; ++i) {
+    if (along(i + 1) > along(i) + kSame) return std::nullopt;
+  }
+  // Points at the ends belong to the upright sides: the lower edge takes their lowest, the upper one their highest.
+  double leftLow = INFINITY, leftHigh = -INFINITY, rightLow = INFINITY, rightHigh = -INFINITY;
+  for (size_t i = 0; i < n; ++i) {
+    const double z = points[ring[i]].z;
+    if (along(i) < along(left) + kSame) leftLow = std::min(leftLow, z), leftHigh = std::max(leftHigh, z);
+    if (along(i) > along(right) - kSame) rightLow = std::min(rightLow, z), rightHigh = std::max(rightHigh, z);
+  }
+  bottom = std::max(leftLow, rightLow), top = std::min(leftHigh, rightHigh);
+  for (size_t i = left; i % n != right; ++i)
+    if (along(i) >= along(left) + kSame && along(i) <= along(right) - kSame)
+      bottom = std::max(bottom, points[ring[i % n]].z);
+  for (size_t i = right; i % n != left; ++i)
+    if (along(i) >= along(left) + kSame && along(i) <= along(right) - kSame) top = std::min(top, points[ring[i % n]].z);
+  if (!(top - bottom > 0.1)) return std::nullopt;
+  city::OccluderLine line;
+  line.a = glm::vec2(points[ring[left]]), line.b = glm::vec2(points[ring[right]]);
+  line.bottom = static_cast<float>(bottom), line.top = static_cast<float>(top);
+  return line;
+}
+
+/// Puts faces into a BuildingBuilder.
+class SurfaceBuilder {
+ public:
+  SurfaceBuilder(city::BuildingBuilder& builder, const std::vector<glm::dvec3>& points, const SurfaceOptions& options,
+                 SurfaceReport& report, double lowest)
+      : builder_(builder), points_(points), options_(options), report_(report), lowest_(lowest) {}
+
+  void add(const Face& face);
+  bool any() const { return any_; }
+  /// Mean gap between the building's feet and the ground; 0 where the ground is not known.
+  double floating() const { return gaps_ > 0 ? gapSum_ / gaps_ : 0; }
+
+ private:
+  void addSkirt(const Face& face, const Axes& axes);
+
+  city::BuildingBuilder& builder_;
+  const std::vector<glm::dvec3>& points_;
+  const SurfaceOptions& options_;
+  SurfaceReport& report_;
+  double lowest_;
+  bool any_ = false;
+  double gapSum_ = 0;
+  int gaps_ = 0;
+};
+
+void SurfaceBuilder::add(const Face& face) {
+  const Axes axes = axesOf(face, points_);
+  const Mesh mesh = meshOf(face, axes, points_, report_);
+  if (mesh.triangles.empty()) {
+    ++report_.leftOut;
+    return;
+  }
+  any_ = true;
+  const Span span = spanOf(face, axes, points_);
+  const double area = glm::length(face.areaVector);
+  PlaneKind plane = PlaneKind::Other;
+  Finish finish = options_.style.plain;
+  int bays = 0;
+  switch (face.kind) {
+    case SurfaceKind::Wall: {
+      plane = PlaneKind::Wall;
+      // Windows only on upright walls that fill the rectangle around them.
+      const bool rectangle = std::abs(face.normal.z) < 0.1 && area > 0.97 * span.width() * span.height();
+      if (rectangle && span.height() >= kSmallestFacadeHeight) bays = baysIn(span.width());
+      if (bays > 0) finish = options_.style.facade;
+      break;
+    }
+    case SurfaceKind::Roof:
+      plane = PlaneKind::Roof;
+      finish = face.normal.z > 0.98 ? Finish::Concrete : options_.style.roof;  // flatter than 11°
+      break;
+    case SurfaceKind::Window:
+      finish = Finish::Glass;
+      break;
+    case SurfaceKind::Door:
+      finish = Finish::Door;
+      break;
+    default:
+      break;
+  }
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec2> uvs;
+  const double storeys = storeysIn(span.height());
+  for (const glm::dvec3& p : mesh.positions) {
+    positions.emplace_back(p);
+    const double u = glm::dot(p, axes.u), v = glm::dot(p, axes.v);
+    uvs.push_back(bays > 0
+                      ? glm::vec2((u - span.left) / span.width() * bays, (p.z - span.bottom) / span.height() * storeys)
+                      : glm::vec2(u, plane == PlaneKind::Wall ? p.z : v));
+  }
+  const bool opening = face.kind == SurfaceKind::Window || face.kind == SurfaceKind::Door;
+  builder_.beginPlane(plane, id(finish), glm::vec3(face.normal), !opening);
+  builder_.addTriangles(positions, uvs, mesh.triangles, glm::vec3(face.normal), id(finish));
+  if (face.bothSides) {
+    std::vector<uint32_t> back(mesh.triangles);
+    for (size_t t = 0; t + 2 < back.size(); t += 3) std::swap(back[t + 1], back[t + 2]);
+    builder_.addTriangles(positions, uvs, back, glm::vec3(-face.normal), id(finish));
+  }
+  if (face.kind == SurfaceKind::Wall) {
+    if (const auto line = occluderOf(face, axes, points_)) builder_.addOccluder(*line);
+    if (options_.groundAt) addSkirt(face, axes);
+  }
+}
+
+/// Lengthens a wall's foot to below the ground, in the wall's own plane.
+void SurfaceBuilder::addSkirt(const Face& face, const Axes& axes) {
+  const auto& ring = face.rings[0];
+  double foot = INFINITY;
+  for (const uint32_t i : ring) foot = std::min(foot, points_[i].z);
+  for (size_t i = 0; i < ring.size(); ++i) {
+    const glm::dvec3 a = points_[ring[i]], b = points_[ring[(i + 1) % ring.size()]];
+    constexpr double kLevel = 0.05;
+    if (glm::dot(b - a, axes.u) <= 0 || a.z > foot + kLevel || b.z > foot + kLevel) continue;
+    const glm::dvec3 middle = (a + b) / 2.0;
+    double ground = INFINITY;
+    for (const glm::dvec3& p : {a, middle, b}) {
+      const double h = options_.groundAt(glm::dvec2(p));
+      if (std::isfinite(h)) ground = std::min(ground, h);
+    }
+    if (!std::isfinite(ground)) continue;
+    const double gap = foot - ground;
+    const bool onTheGround = foot < lowest_ + kSkirtDepth;
+    if (onTheGround) gapSum_ += gap, ++gaps_;
+    if (gap < -kSkirtDepth || (gap > kLongestSkirt && !onTheGround)) continue;
+    const double bottom = ground - kSkirtDepth;
+    const auto lowered = [&](const glm::dvec3& p) { return glm::vec3(glm::dvec3(glm::dvec2(p), bottom)); };
+    builder_.addQuad(lowered(a), lowered(b), glm::vec3(b), glm::vec3(a), id(options_.style.plain));
+    if (face.bothSides) builder_.addQuad(lowered(b), lowered(a), glm::vec3(a), glm::vec3(b), id(options_.style.plain));
+  }
+}
+
+std::vector<std::vector<glm::vec2>> footprintOf(const std::vector<Face>& faces, const std::vector<glm::dvec3>& points) {
+  std::vector<std::vector<glm::vec2>> out;
+  for (const SurfaceKind kind : {SurfaceKind::Ground, SurfaceKind::Roof}) {
+    for (const Face& f : faces) {
+      if (f.kind != kind || std::abs(f.normal.z) < kWallSlope) continue;
+      for (size_t r = 0; r < f.rings.size(); ++r) {
+        Ring ring;
+        for (const uint32_t i : f.rings[r]) ring.emplace_back(points[i]);
+        if ((signedArea(ring) > 0) != (r == 0)) std::reverse(ring.begin(), ring.end());
+        auto& line = out.emplace_back();
+        for (const glm::dvec2& q : ring) line.emplace_back(q);
+      }
+    }
+    if (!out.empty()) break;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::optional<city::BuildingGeometry> buildFromSurfaces(const SurfaceBuilding& building, std::string name,
+                                                        const SurfaceOptions& options, SurfaceReport& report) {
+  std::vector<glm::dvec3> points;
+  std::vector<Face> faces = facesOf(building, points, report);
+  if (faces.empty()) return std::nullopt;
+  windOutward(faces, points, report);
+  double lowest = INFINITY, highest = -INFINITY, eaves = -INFINITY;
+  for (const Face& f : faces)
+    for (const uint32_t i : f.rings[0])
+      lowest = std::min(lowest, points[i].z), highest = std::max(highest, points[i].z);
+  for (Face& f : faces) f.kind = kindFrom(f, points, lowest);
+
+  city::BuildingBuilder builder(std::move(name));
+  SurfaceBuilder surfaces(builder, points, options, report, lowest);
+  for (const Face& f : faces)
+    if (f.kind == SurfaceKind::Wall)
+      for (const uint32_t i : f.rings[0]) eaves = std::max(eaves, points[i].z);
+  builder.beginLevel(static_cast<float>(lowest), static_cast<float>(std::isfinite(eaves) ? eaves : highest));
+  for (const Face& f : faces)
+    if (f.kind != SurfaceKind::Roof && f.kind != SurfaceKind::Ground) surfaces.add(f);
+  double roofFoot = highest;
+  for (const Face& f : faces)
+    if (f.kind == SurfaceKind::Roof)
+      for (const uint32_t i : f.rings[0]) roofFoot = std::min(roofFoot, points[i].z);
+  builder.beginLevel(static_cast<float>(roofFoot), static_cast<float>(highest));
+  for (const Face& f : faces)
+    if (f.kind == SurfaceKind::Roof) surfaces.add(f);
+  if (!surfaces.any()) return std::nullopt;
+  report.floating = surfaces.floating();
+  builder.setFootprint(footprintOf(faces, points));
+  return builder.finish();
+}
+
+}  // namespace vicus::assets
