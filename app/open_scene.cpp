@@ -1,0 +1,99 @@
+#include "app/open_scene.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+#include "assets/load_city.hpp"
+#include "viewer/frame_loop.hpp"
+
+namespace vicus::app {
+
+city::Knobs allKnobs() {
+  city::Knobs knobs;
+  knobs.declare(plan::planKnobs());
+  knobs.declare(scenegraph::sceneKnobs());
+  knobs.declare(viewer::viewerKnobs());
+  return knobs;
+}
+
+std::optional<city::Knobs> knobsFrom(const std::vector<std::string>& settings, Console& console) {
+  city::Knobs knobs = allKnobs();
+  bool good = true;
+  for (const std::string& setting : settings) {
+    const std::string problem = knobs.set(setting);
+    if (problem.empty()) continue;
+    console.error("--set: " + problem);
+    good = false;
+  }
+  if (!good) return std::nullopt;
+  return knobs;
+}
+
+std::optional<OpenScene> openScene(const SceneOptions& options, const Surroundings& surroundings, Console& console,
+                                   int& code) {
+  std::optional<city::Knobs> knobs = knobsFrom(options.knobs, console);
+  if (!knobs) {
+    code = kWrongUsage;
+    return std::nullopt;
+  }
+  OpenScene scene;
+  scene.knobs = std::move(*knobs);
+  for (const std::string& input : options.inputs) scene.name += (scene.name.empty() ? "" : " ") + input;
+
+  assets::LoadOptions load;
+  load.elevation = options.elevation;
+  load.heightColumn = options.heightColumn, load.groundColumn = options.groundColumn;
+  load.crs = options.crs;
+  load.shift = options.shift;
+  if (!options.noCache) load.cacheFolder = surroundings.cacheFolder;
+  load.progress = [&](std::string_view stage, double fraction) { console.progress(stage, fraction); };
+
+  const auto begin = std::chrono::steady_clock::now();
+  assets::LoadResult result = assets::loadCity(options.inputs, load);
+  scene.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  console.progressDone();
+  console.report(result.diagnostics);
+  if (!result.city) {
+    console.error(scene.name + ": nothing to show");
+    code = kCouldNot;
+    return std::nullopt;
+  }
+  scene.city = std::move(*result.city);
+  scene.diagnostics = std::move(result.diagnostics);
+  scene.fromCache = result.fromCache;
+
+  char seconds[32];
+  std::snprintf(seconds, sizeof seconds, "%.2f", scene.seconds);
+  console.say(scene.name + ": " + std::to_string(scene.city.buildings.size()) + " buildings of " +
+              std::to_string(scene.city.buildingTypes.size()) + " types, " +
+              std::to_string(scene.city.monuments.size()) + " monuments, " + std::to_string(scene.city.trees.size()) +
+              " trees in " + seconds + " s" + (scene.fromCache ? " from the cache" : ""));
+  return scene;
+}
+
+city::Knobs withoutTechniques(const city::Knobs& knobs) {
+  city::Knobs off = knobs;
+  // Techniques are switches without a part's name: "frustum_culling", but not "viewer.vsync".
+  for (const city::Knob& knob : knobs.declared())
+    if (knob.isSwitch() && knob.name.find('.') == std::string_view::npos) off.set(knob.name, 0);
+  return off;
+}
+
+std::vector<plan::FeatureReport> featuresOf(const plan::Planner& planner, const city::Knobs& knobs) {
+  std::vector<plan::FeatureReport> features = planner.features();
+  const auto known = [&](std::string_view name) {
+    return std::any_of(features.begin(), features.end(), [&](const auto& f) { return f.name == name; });
+  };
+  // Techniques of drawing, in the order in which they are declared, after the planner's own.
+  for (const city::Knob& knob : scenegraph::sceneKnobs()) {
+    if (!knob.isSwitch() || knob.name.find('.') != std::string_view::npos || known(knob.name)) continue;
+    const bool on = knobs.on(knob.name);
+    const auto afterTechniques =
+        std::find_if(features.begin(), features.end(), [](const auto& f) { return !f.technique; });
+    features.insert(afterTechniques, {std::string(knob.name), true, on, on ? "always pays" : "knob"});
+  }
+  return features;
+}
+
+}  // namespace vicus::app

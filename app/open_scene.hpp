@@ -1,0 +1,43 @@
+/// From what the user names to a city with its knobs and features.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/console.hpp"
+#include "app/options.hpp"
+#include "city/city.hpp"
+#include "city/knob.hpp"
+#include "plan/planner.hpp"
+#include "scenegraph/scene.hpp"
+
+namespace vicus::app {
+
+/// A scene as the commands work with it.
+struct OpenScene {
+  std::string name;  ///< the inputs as given
+  city::City city;
+  city::Knobs knobs;
+  city::Diagnostics diagnostics;
+  bool fromCache = false;
+  double seconds = 0;  ///< that loading took
+};
+
+/// All knobs of the program at their defaults.
+city::Knobs allKnobs();
+
+/// The knobs with the user's settings; an empty result with messages on the console where a setting is wrong.
+std::optional<city::Knobs> knobsFrom(const std::vector<std::string>& settings, Console& console);
+
+/// Loads the city, telling progress and messages. On failure nothing, with the exit code in `code`.
+std::optional<OpenScene> openScene(const SceneOptions& options, const Surroundings& surroundings, Console& console,
+                                   int& code);
+
+/// The same knobs with every technique off.
+city::Knobs withoutTechniques(const city::Knobs& knobs);
+
+/// Every technique and kind of content: what the planner decides and what drawing adds.
+std::vector<plan::FeatureReport> featuresOf(const plan::Planner& planner, const city::Knobs& knobs);
+
+}  // namespace vicus::app

@@ -1,0 +1,68 @@
+/// What the user asked for.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vicus::app {
+
+/// The program's exit codes.
+constexpr int kDone = 0, kCouldNot = 1, kWrongUsage = 2;
+
+/// Which scene, and how it is read.
+struct SceneOptions {
+  std::vector<std::string> inputs;
+  std::vector<std::string> elevation;
+  std::string heightColumn, groundColumn, crs;
+  glm::dvec3 shift{0};  ///< metres
+  bool noCache = false;
+  std::vector<std::string> knobs;  ///< name=value
+};
+
+/// A single view, as `--view` names it.
+struct ViewOption {
+  glm::dvec3 eye{0};              ///< metres from the city's origin
+  double heading = 0, pitch = 0;  ///< radians
+  std::optional<double> fov;      ///< radians between top and bottom; the knob's where not given
+};
+
+struct WalkOptions {
+  SceneOptions scene;
+  bool headless = false;
+  std::string path, tour;
+  std::vector<ViewOption> views;
+  std::optional<size_t> frames;
+  std::optional<double> fps;
+  glm::ivec2 size{1280, 720};
+  std::string out;  ///< folder for pictures; empty: not given
+  std::optional<size_t> every;
+  std::string json;  ///< file for the figures; empty: none
+};
+
+struct InfoOptions {
+  SceneOptions scene;
+  bool json = false;
+  bool graph = false;
+};
+
+struct CheckOptions {
+  SceneOptions scene;
+  size_t views = 100;
+  uint32_t seed = 1;
+  glm::ivec2 size{320, 180};
+};
+
+/// "1280x720" (or with ×); nothing where it is no such text or a side is not 1 to 16384.
+std::optional<glm::ivec2> parseSize(std::string_view text);
+/// Numbers between commas; nothing where one is none or not finite, or where there are fewer than `least` or more than
+/// `most`.
+std::optional<std::vector<double>> parseNumbers(std::string_view text, size_t least, size_t most);
+/// "x,y,z,heading,pitch" or with ",fov" at its end, angles in degrees. The reason in `error` where it is none.
+std::optional<ViewOption> parseView(std::string_view text, std::string& error);
+
+}  // namespace vicus::app

@@ -1,0 +1,146 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <ostream>
+
+#include "app/commands.hpp"
+
+namespace vicus::app {
+namespace {
+
+/// What the arguments were told to be, before anything is checked against anything else.
+struct Parsed {
+  WalkOptions walk;
+  InfoOptions info;
+  CheckOptions check;
+  bool knobsJson = false;
+  std::string shift[3];  ///< of walk, info and check
+  std::string walkSize, checkSize;
+  std::vector<std::string> views;
+};
+
+void addScene(CLI::App& command, SceneOptions& scene, std::string& shift) {
+  command.add_option("SCENE", scene.inputs,
+                     "norvic (the default), norvic:8000, norwich-2001, or files as they come: footprints, CityJSON, "
+                     "elevation");
+  // Options that may be repeated take one value each, so that they never swallow the scene.
+  const auto repeated = [&](const char* name, std::vector<std::string>& values, const char* help) {
+    return command.add_option(name, values, help)->allow_extra_args(false);
+  };
+  repeated("--dem", scene.elevation, "elevation raster for the terrain")->type_name("FILE");
+  command.add_option("--height-column", scene.heightColumn, "column of building heights in metres")->type_name("NAME");
+  command.add_option("--ground-column", scene.groundColumn, "column of the ground's altitude in metres")
+      ->type_name("NAME");
+  command.add_option("--crs", scene.crs, "coordinates of files that name none, as EPSG:2154")->type_name("CRS");
+  command.add_option("--shift", shift, "metres added to all coordinates: x,y,z")->type_name("X,Y,Z");
+  command.add_flag("--no-cache", scene.noCache, "neither read nor write the cache");
+  repeated("--set", scene.knobs, "set a knob (see vicus knobs)")->type_name("KNOB=VALUE");
+}
+
+void addWalk(CLI::App& app, Parsed& p) {
+  CLI::App& walk = *app.add_subcommand("walk", "walk in a window, or draw pictures offscreen with --headless");
+  addScene(walk, p.walk.scene, p.shift[0]);
+  walk.add_flag("--headless", p.walk.headless, "draw offscreen; needs no display");
+  CLI::Option* path = walk.add_option("--path", p.walk.path, "follow the keys in a JSON file")->type_name("FILE");
+  CLI::Option* tour =
+      walk.add_option("--tour", p.walk.tour, "follow a tour: street, flyover, turn, teleport, or one of the scene's")
+          ->type_name("NAME");
+  CLI::Option* view = walk.add_option("--view", p.views,
+                                      "draw a single view: metres from the city's origin and degrees, heading "
+                                      "counter-clockwise from east; may be repeated")
+                          ->allow_extra_args(false)
+                          ->type_name("X,Y,Z,HEADING,PITCH[,FOV]");
+  CLI::Option* frames =
+      walk.add_option("--frames", p.walk.frames, "frames spread evenly over the tour, after 10 to warm up")
+          ->check(CLI::PositiveNumber)
+          ->type_name("N");
+  CLI::Option* fps = walk.add_option("--fps", p.walk.fps,
+                                     "play the tour in real time at so many frames a second; with --headless every "
+                                     "frame of that film")
+                         ->check(CLI::PositiveNumber)
+                         ->type_name("F");
+  path->excludes(tour)->excludes(view);
+  tour->excludes(view);
+  frames->excludes(fps)->excludes(view);
+  fps->excludes(view);
+  walk.add_option("--size", p.walkSize, "of the picture or window, 1280x720 by default")->type_name("WxH");
+  walk.add_option("--out", p.walk.out, "folder for pictures (PNG)")->type_name("DIR");
+  walk.add_option("--every", p.walk.every, "write every K-th frame only")->check(CLI::PositiveNumber)->type_name("K");
+  walk.add_option("--json", p.walk.json, "write the figures of the run")->type_name("FILE");
+}
+
+void addOthers(CLI::App& app, Parsed& p) {
+  CLI::App& info = *app.add_subcommand("info", "what a scene holds, which features are on or off and why");
+  addScene(info, p.info.scene, p.shift[1]);
+  CLI::Option* json = info.add_flag("--json", p.info.json, "as JSON");
+  info.add_flag("--graph", p.info.graph, "the scene graph instead, node by node")->excludes(json);
+
+  CLI::App& knobs = *app.add_subcommand("knobs", "every knob: default, unit, what too small and too large do");
+  knobs.add_flag("--json", p.knobsJson, "as JSON");
+
+  CLI::App& check = *app.add_subcommand(
+      "check", "compares random views with and without the techniques: no pixel of a building may be lost");
+  addScene(check, p.check.scene, p.shift[2]);
+  check.add_option("--views", p.check.views, "how many views, 100 by default")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
+  check.add_option("--seed", p.check.seed, "another seed gives other views")->type_name("S");
+  check.add_option("--size", p.checkSize, "of the pictures, 320x180 by default")->type_name("WxH");
+}
+
+/// Completes the options from their texts; what is wrong, or an empty text.
+std::string complete(Parsed& p) {
+  SceneOptions* scenes[] = {&p.walk.scene, &p.info.scene, &p.check.scene};
+  for (size_t k = 0; k < std::size(scenes); ++k) {
+    if (scenes[k]->inputs.empty()) scenes[k]->inputs = {"norvic"};
+    if (p.shift[k].empty()) continue;
+    const auto numbers = parseNumbers(p.shift[k], 3, 3);
+    if (!numbers) return "--shift takes three numbers x,y,z, not '" + p.shift[k] + "'";
+    scenes[k]->shift = {(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+  }
+  const std::pair<const std::string*, glm::ivec2*> sizes[] = {{&p.walkSize, &p.walk.size},
+                                                              {&p.checkSize, &p.check.size}};
+  for (const auto& [text, size] : sizes) {
+    if (text->empty()) continue;
+    const auto parsed = parseSize(*text);
+    if (!parsed) return "--size takes WIDTHxHEIGHT, each 1 to 16384, not '" + *text + "'";
+    *size = *parsed;
+  }
+  for (const std::string& text : p.views) {
+    std::string error;
+    const auto view = parseView(text, error);
+    if (!view) return error;
+    p.walk.views.push_back(*view);
+  }
+  return {};
+}
+
+}  // namespace
+
+int run(std::span<const std::string> arguments, const Surroundings& surroundings) {
+  Parsed parsed;
+  CLI::App app("Vicus: walk and fly through large historic cities in real time.", "vicus");
+  app.require_subcommand(1);
+  addWalk(app, parsed);
+  addOthers(app, parsed);
+
+  try {
+    std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
+    app.parse(reversed);
+  } catch (const CLI::ParseError& e) {
+    // Help is a result; anything else is the user's to mend.
+    const bool help = e.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
+    app.exit(e, surroundings.out, surroundings.err);
+    return help ? kDone : kWrongUsage;
+  }
+  if (const std::string problem = complete(parsed); !problem.empty()) {
+    surroundings.err << "error: " << problem << "\n";
+    return kWrongUsage;
+  }
+
+  if (app.got_subcommand("walk")) return walk(parsed.walk, surroundings);
+  if (app.got_subcommand("info")) return info(parsed.info, surroundings);
+  if (app.got_subcommand("check")) return check(parsed.check, surroundings);
+  return knobs(parsed.knobsJson, surroundings);
+}
+
+}  // namespace vicus::app

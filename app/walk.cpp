@@ -1,0 +1,278 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <thread>
+
+#include "app/commands.hpp"
+#include "app/figures.hpp"
+#include "app/interrupt.hpp"
+#include "app/open_scene.hpp"
+#include "viewer/navigator.hpp"
+#include "viewer/path_file.hpp"
+#include "viewer/pictures.hpp"
+#include "viewer/tours.hpp"
+#include "viewer/window.hpp"
+
+namespace vicus::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// A view that is known before the walk begins.
+struct PlannedView {
+  city::ViewPose pose;
+  double fov = 0;  ///< radians
+  double time = 0, dt = 0;
+  bool warmUp = false;
+};
+
+/// The frames of a walk whose views do not depend on when they are drawn: single views, N frames spread over a tour,
+/// or every frame of a film.
+std::vector<PlannedView> plannedViews(const WalkOptions& options, const city::Tour& tour, double fov) {
+  constexpr size_t kDefaultFrames = 120;
+  std::vector<PlannedView> views;
+  for (const ViewOption& v : options.views)
+    views.push_back({{v.eye, v.heading, v.pitch, 0}, v.fov.value_or(fov), 0, 0, false});
+  if (!views.empty()) {
+    views.insert(views.begin(), viewer::kWarmUpFrames, views.front());
+    for (size_t k = 0; k < viewer::kWarmUpFrames; ++k) views[k].warmUp = true;
+    return views;
+  }
+  size_t frames = options.frames.value_or(kDefaultFrames);
+  if (options.fps) frames = 1 + static_cast<size_t>(std::floor(viewer::durationOf(tour) * *options.fps));
+  for (const viewer::TourFrame& f : viewer::spreadFrames(tour, frames))
+    views.push_back({viewer::poseAt(tour, f.time), fov, f.time, f.dt, f.warmUp});
+  return views;
+}
+
+/// Which frames become pictures, and where.
+struct PictureChoice {
+  std::string folder;  ///< empty: none
+  size_t every = 1;
+  std::set<size_t> frames;  ///< where not empty: these, and `every` does not count
+
+  bool has(size_t frame) const {
+    if (folder.empty()) return false;
+    return frames.empty() ? frame % every == 0 : frames.contains(frame);
+  }
+  std::filesystem::path file(size_t frame) const {
+    char name[32];
+    std::snprintf(name, sizeof name, "frame_%05zu.png", frame);
+    return std::filesystem::path(folder) / name;
+  }
+};
+
+/// As asked; offscreen with no folder named, eight frames evenly into out/.
+PictureChoice choosePictures(const WalkOptions& options, size_t frames) {
+  constexpr size_t kPictures = 8;
+  PictureChoice choice;
+  choice.folder = options.out, choice.every = options.every.value_or(1);
+  if (!options.out.empty() || !options.headless) return choice;
+  choice.folder = "out";
+  if (options.every || frames <= kPictures) return choice;
+  for (size_t k = 0; k < kPictures; ++k) choice.frames.insert(k * (frames - 1) / (kPictures - 1));
+  return choice;
+}
+
+/// The context to draw in: a window's, or one without any display.
+struct Screen {
+  std::unique_ptr<viewer::GlContext> context;
+  viewer::Window* window = nullptr;  ///< null offscreen
+};
+
+std::optional<Screen> openScreen(const WalkOptions& options, const OpenScene& scene, Console& console) {
+  Screen screen;
+  std::string error;
+  if (options.headless) {
+    screen.context = viewer::makeOffscreenContext(error);
+  } else {
+    auto window = viewer::Window::open({"Vicus – " + scene.name, options.size, scene.knobs.on("viewer.vsync")}, error);
+    screen.window = window.get();
+    screen.context = std::move(window);
+  }
+  if (screen.context) return screen;
+  console.error(error);
+  return std::nullopt;
+}
+
+/// The tour that the user named; in `code` the exit code where there is none. No keys: a free walk from `start`.
+std::optional<city::Tour> chooseTour(const WalkOptions& options, const std::vector<city::Tour>& tours, Console& console,
+                                     int& code) {
+  if (!options.path.empty()) {
+    city::Diagnostics diagnostics;
+    std::optional<city::Tour> path = viewer::readPath(options.path, diagnostics);
+    console.report(diagnostics);
+    if (!path) code = kCouldNot;
+    return path;
+  }
+  const std::string name = options.tour.empty() ? "street" : options.tour;
+  if (const city::Tour* tour = viewer::findTour(tours, name)) return *tour;
+  std::string known;
+  for (const city::Tour& t : tours) known += (known.empty() ? "" : ", ") + t.name;
+  console.error("--tour: there is no tour '" + name + "'; this scene has " + known);
+  code = kWrongUsage;
+  return std::nullopt;
+}
+
+/// Where the next view comes from, frame after frame.
+class Guide {
+ public:
+  Guide(const WalkOptions& options, const OpenScene& scene, const city::Tour& tour, viewer::Window* window)
+      : scene_(scene),
+        tour_(tour),
+        window_(window),
+        size_(options.size),
+        fov_(glm::radians(scene.knobs["viewer.fov"])),
+        fps_(options.fps) {
+    const bool guided = !options.path.empty() || !options.tour.empty();
+    free_ = window && !guided && options.views.empty() && !options.frames && !options.fps;
+    live_ = window && options.views.empty() && !options.frames;
+    if (!live_) planned_ = plannedViews(options, tour, fov_);
+    navigator_.pose = viewer::poseAt(tour, tour.keys.empty() ? 0 : tour.keys.front().time);
+  }
+
+  /// Counted frames, where they are known beforehand.
+  size_t countedFrames() const {
+    return static_cast<size_t>(
+        std::count_if(planned_.begin(), planned_.end(), [](const auto& v) { return !v.warmUp; }));
+  }
+  bool free() const { return free_; }
+
+  std::optional<viewer::NextView> next() {
+    viewer::Input input;
+    if (window_) input = window_->poll(), size_ = window_->size();
+    if (input.quit || interrupted()) return std::nullopt;
+    return live_ ? liveView(input) : plannedView();
+  }
+
+ private:
+  std::optional<viewer::NextView> plannedView() {
+    if (frame_ == planned_.size()) return std::nullopt;
+    const PlannedView& planned = planned_[frame_++];
+    return nextView(planned.pose, planned.fov, planned.time, planned.dt, planned.warmUp);
+  }
+
+  /// A view of this moment: the visitor's own, or the tour's.
+  std::optional<viewer::NextView> liveView(const viewer::Input& input) {
+    // The clock starts when the first frames have warmed everything up.
+    const bool warmUp = frame_++ < viewer::kWarmUpFrames;
+    if (warmUp) begin_ = Clock::now();
+    double now = secondsSince(begin_);
+    if (fps_ && !warmUp) {  // wait for the next frame's moment; frames that are late are passed over
+      const double due = std::floor(now * *fps_ + 1) / *fps_;
+      std::this_thread::sleep_for(std::chrono::duration<double>(due - now));
+      now = due;
+    }
+    const double dt = now - time_;
+    time_ = now;
+    if (free_) {
+      viewer::step(navigator_, input, dt, scene_.city);
+      return nextView(navigator_.pose, fov_, now, dt, warmUp);
+    }
+    if (now > viewer::durationOf(tour_)) return std::nullopt;
+    return nextView(viewer::poseAt(tour_, tour_.keys.front().time + now), fov_, now, dt, warmUp);
+  }
+
+  viewer::NextView nextView(const city::ViewPose& pose, double fov, double time, double dt, bool warmUp) {
+    view_ = city::makeView(pose, fov, size_, view_);
+    view_.time = time;
+    return {view_, dt, warmUp};
+  }
+
+  const OpenScene& scene_;
+  const city::Tour& tour_;
+  viewer::Window* window_;
+  glm::ivec2 size_;
+  double fov_;
+  std::optional<double> fps_;
+  bool free_ = false;  ///< the visitor walks
+  bool live_ = false;  ///< views depend on the clock
+  std::vector<PlannedView> planned_;
+  size_t frame_ = 0;
+  viewer::Navigator navigator_;
+  Clock::time_point begin_ = Clock::now();
+  double time_ = 0;
+  city::ViewState view_;
+};
+
+void tellTimes(const std::vector<viewer::FrameRecord>& records, const std::string& renderer, Console& console) {
+  if (records.empty()) return;
+  const viewer::RunTimes times = viewer::timesOf(records);
+  char text[160];
+  std::snprintf(text, sizeof text, "%zu frames: median %.1f ms, 95 %% under %.1f ms, longest %.1f ms", records.size(),
+                times.frame.median, times.frame.p95, times.frame.max);
+  console.say(std::string(text) + " (" + renderer + ")");
+}
+
+}  // namespace
+
+int walk(const WalkOptions& options, const Surroundings& surroundings) {
+  Console console(surroundings);
+  int code = kDone;
+  std::optional<OpenScene> scene = openScene(options.scene, surroundings, console, code);
+  if (!scene) return code;
+  const std::vector<city::Tour> tours = viewer::makeTours(scene->city);
+  const std::optional<city::Tour> tour = chooseTour(options, tours, console, code);
+  if (!tour) return code;
+
+  // The screen, the scene graph and the renderer; the city's buffers reach the card with the first frame.
+  const std::optional<Screen> screen = openScreen(options, *scene, console);
+  if (!screen) return kCouldNot;
+  const plan::Planner planner(scene->city, scene->knobs);
+  city::Diagnostics diagnostics;
+  scenegraph::Scene graph(scene->city, scene->knobs, diagnostics,
+                          [&](std::string_view stage, double fraction) { console.progress(stage, fraction); });
+  console.progressDone();
+  console.report(diagnostics);
+  viewer::Renderer renderer(*screen->context, graph, static_cast<int>(scene->knobs["viewer.multisamples"]));
+  const std::string rendererName = screen->context->rendererName();
+
+  // The walk.
+  Guide guide(options, *scene, *tour, screen->window);
+  const PictureChoice pictures = choosePictures(options, guide.countedFrames());
+  std::string pictureProblem;
+  size_t written = 0;
+  glm::ivec2 size = options.size;
+  viewer::LoopHooks hooks;
+  hooks.nextView = [&] {
+    if (!pictureProblem.empty()) return std::optional<viewer::NextView>();
+    std::optional<viewer::NextView> next = guide.next();
+    if (next) size = next->view.viewport;
+    return next;
+  };
+  if (screen->window) hooks.windowSize = [&] { return screen->window->size(); };
+  hooks.keepRecords = !guide.free() || !options.json.empty();
+  hooks.drawn = [&](size_t frame, const viewer::FrameRecord&) {
+    if (guide.countedFrames() > 0)
+      console.progress("drawing", static_cast<double>(frame + 1) / static_cast<double>(guide.countedFrames()));
+    if (!pictures.has(frame)) return;
+    pictureProblem = viewer::writePng(pictures.file(frame), renderer.readPicture());
+    if (pictureProblem.empty()) ++written;
+  };
+  const std::vector<viewer::FrameRecord> records =
+      viewer::runFrames({scene->city, planner, graph, renderer, *screen->context}, hooks);
+  console.progressDone();
+
+  // What came of it.
+  for (const std::string& problem : renderer.problems()) console.error(problem), code = kCouldNot;
+  if (!pictureProblem.empty()) console.error(pictureProblem), code = kCouldNot;
+  tellTimes(records, rendererName, console);
+  if (written > 0)
+    console.say(std::to_string(written) + (written == 1 ? " picture in " : " pictures in ") +
+                std::filesystem::absolute(pictures.folder).lexically_normal().string());
+  if (!options.json.empty()) {
+    const std::vector<plan::FeatureReport> features = featuresOf(planner, scene->knobs);
+    const std::string problem = writeText(options.json, walkJson({*scene, features, records, rendererName, size,
+                                                                  graph.gpuBytes(), viewer::peakResidentBytes()}));
+    if (!problem.empty()) console.error(problem), code = kCouldNot;
+  }
+  return code;
+}
+
+}  // namespace vicus::app

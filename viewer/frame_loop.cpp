@@ -1,0 +1,112 @@
+#include "viewer/frame_loop.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace vicus::viewer {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+constexpr city::Knob kViewerKnobs[] = {
+    {"viewer.multisamples", 4, 1, 8, "samples", "Samples of each pixel that smooth the edges of what is drawn.",
+     "jagged, crawling edges", "slower, and smoother than one sees"},
+    {"viewer.fov", 60, 1, 170, "degrees", "Angle between the top and the bottom of the picture.",
+     "like looking through a telescope", "the picture's edges are stretched"},
+    {"viewer.vsync", 1, 0, 1, "on/off", "Shows a frame only when the screen begins a new one.",
+     "off: faster than the screen, and frames may tear", "on is the most"},
+};
+
+}  // namespace
+
+std::span<const city::Knob> viewerKnobs() {
+  return kViewerKnobs;
+}
+
+std::vector<FrameRecord> runFrames(const Stage& stage, const LoopHooks& hooks) {
+  std::vector<FrameRecord> records;
+  size_t frame = 0;
+  plan::PlannerState state;
+  for (;;) {
+    const Clock::time_point begin = Clock::now();
+    FrameRecord record;
+
+    // Input: where the eye is now.
+    const std::optional<NextView> next = hooks.nextView();
+    if (!next) return records;
+    record.stages.push_back({"input", millisecondsSince(begin)});
+
+    // Plan: everything decided, nothing drawn.
+    const city::FramePlan plan = stage.planner.plan(stage.city, next->view, next->dt, state);
+    for (const city::StageTime& s : plan.stages) record.stages.push_back({s.name, s.milliseconds});
+
+    // Apply, traverse, finish: the plan into the scene graph, and the scene graph onto the card.
+    const DrawTimes times = stage.renderer.draw(plan);
+    record.stages.push_back({"apply", times.apply});
+    record.stages.push_back({"traverse", times.traverse});
+    record.stages.push_back({"finish", times.finish});
+    record.milliseconds = millisecondsSince(begin);
+
+    // Swap: show it.
+    const Clock::time_point drawn = Clock::now();
+    if (hooks.windowSize) stage.renderer.present(hooks.windowSize());
+    stage.context.swap();
+    record.stages.push_back({"swap", millisecondsSince(drawn)});
+
+    if (next->warmUp) continue;
+    record.counts = plan.counts;
+    record.draw = stage.scene.counts();
+    if (hooks.drawn) hooks.drawn(frame, record);
+    ++frame;
+    if (hooks.keepRecords) records.push_back(std::move(record));
+  }
+}
+
+RunTimes timesOf(std::span<const FrameRecord> records) {
+  std::vector<double> frames;
+  std::vector<std::pair<std::string, std::vector<double>>> stages;
+  for (const FrameRecord& r : records) {
+    frames.push_back(r.milliseconds);
+    for (const StageSample& s : r.stages) {
+      auto it = std::find_if(stages.begin(), stages.end(), [&](const auto& known) { return known.first == s.name; });
+      if (it == stages.end()) it = stages.insert(stages.end(), {std::string(s.name), {}});
+      it->second.push_back(s.milliseconds);
+    }
+  }
+  RunTimes out;
+  out.frame = percentiles(frames);
+  for (const auto& [name, values] : stages) out.stages.emplace_back(name, percentiles(values));
+  return out;
+}
+
+std::vector<std::pair<std::string, MeanMax>> countsOf(std::span<const FrameRecord> records) {
+  std::vector<std::pair<std::string, MeanMax>> out;
+  const auto add = [&](const char* name, auto&& valueOf) {
+    std::vector<double> values;
+    for (const FrameRecord& r : records) values.push_back(static_cast<double>(valueOf(r)));
+    out.emplace_back(name, meanMax(values));
+  };
+  add("tiles", [](const FrameRecord& r) { return r.counts.tiles; });
+  add("tiles_drawn", [](const FrameRecord& r) { return r.counts.tilesDrawn; });
+  add("instances", [](const FrameRecord& r) { return r.counts.instances; });
+  add("instances_in_frustum", [](const FrameRecord& r) { return r.counts.instancesInFrustum; });
+  add("instances_occluded", [](const FrameRecord& r) { return r.counts.instancesOccluded; });
+  add("instances_drawn", [](const FrameRecord& r) { return r.counts.instancesDrawn; });
+  add("trees_drawn", [](const FrameRecord& r) { return r.counts.treesDrawn; });
+  add("box_tests", [](const FrameRecord& r) { return r.counts.boxTests; });
+  add("triangles", [](const FrameRecord& r) { return r.draw.triangles; });
+  add("terrain_triangles", [](const FrameRecord& r) { return r.draw.terrainTriangles; });
+  add("draw_calls", [](const FrameRecord& r) { return r.draw.drawCalls; });
+  add("indirect_commands", [](const FrameRecord& r) { return r.draw.indirectCommands; });
+  add("texture_binds", [](const FrameRecord& r) { return r.draw.textureBinds; });
+  // No scene has these yet; readers of the figures may count on them.
+  add("blockmaps", [](const FrameRecord&) { return 0; });
+  add("avatars", [](const FrameRecord&) { return 0; });
+  return out;
+}
+
+}  // namespace vicus::viewer

@@ -1,0 +1,27 @@
+/// Figures over many frames, and what the process takes of memory.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace vicus::viewer {
+
+/// Milliseconds, or whatever the values were. All 0 where there were none.
+struct Percentiles {
+  double median = 0, p95 = 0, p99 = 0, max = 0;
+};
+
+/// Percentiles by linear interpolation between the closest ranks (the value at rank p · (n − 1)), so that one value
+/// gives itself four times. Values that are not finite are left out.
+Percentiles percentiles(std::span<const double> values);
+
+/// Mean and largest of counts; 0 where there are none.
+struct MeanMax {
+  double mean = 0, max = 0;
+};
+MeanMax meanMax(std::span<const double> values);
+
+/// The most memory that the process has had resident so far, bytes; 0 where the system does not tell.
+uint64_t peakResidentBytes();
+
+}  // namespace vicus::viewer

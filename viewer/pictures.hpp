@@ -1,0 +1,32 @@
+/// Pictures to and from files, and how far two of them differ.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "viewer/renderer.hpp"
+
+namespace vicus::viewer {
+
+/// Writes an 8-bit sRGB PNG. The picture is written beside `path` and renamed when it is whole, so that nobody ever
+/// reads half of one; folders that are missing are made. Returns an empty text, or what went wrong.
+std::string writePng(const std::filesystem::path& path, const Picture& picture);
+
+/// Reads a picture of any format that OpenImageIO knows as 8-bit RGB; nothing, with the reason in `error`, where it
+/// cannot be read.
+std::optional<Picture> readPicture(const std::filesystem::path& path, std::string& error);
+
+/// How far two pictures of one size differ.
+struct PictureDifference {
+  int largest = 0;               ///< of any channel, 0 (equal) to 255
+  uint64_t differingPixels = 0;  ///< pixels in which any channel differs by more than the tolerance
+  double share = 0;              ///< differingPixels over all pixels, 0 to 1
+};
+
+/// Counts the pixels in which some channel differs by more than `tolerance` (0 to 255). Pictures of different sizes
+/// differ everywhere: largest 255, share 1.
+PictureDifference compare(const Picture& a, const Picture& b, int tolerance = 0);
+
+}  // namespace vicus::viewer
