@@ -73,8 +73,8 @@ std::string Knobs::set(std::string_view assignment) {
   if (equals == std::string_view::npos) return "'" + std::string(assignment) + "' is not name=value";
   const std::string_view name = assignment.substr(0, equals), text = assignment.substr(equals + 1);
   const auto known = std::find_if(declared_.begin(), declared_.end(), [&](const Knob& k) { return k.name == name; });
-  if (known != declared_.end() && known->isSwitch() && (text == "on" || text == "off"))
-    return set(name, text == "on" ? 1 : 0);
+  if (known == declared_.end()) return set(name, 0);  // says which name is unknown before what is wrong with the value
+  if (known->isSwitch() && (text == "on" || text == "off")) return set(name, text == "on" ? 1 : 0);
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size())
