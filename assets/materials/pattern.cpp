@@ -31,10 +31,10 @@ struct Knot {
   std::array<float, 4> weight;
 };
 
-std::vector<Knot> knots(int texels, int cells) {
+std::vector<Knot> knots(int texels, int cells, float offset) {
   std::vector<Knot> result(static_cast<size_t>(texels));
   for (int x = 0; x < texels; ++x) {
-    const float position = static_cast<float>(x) * static_cast<float>(cells) / static_cast<float>(texels);
+    const float position = static_cast<float>(x) * static_cast<float>(cells) / static_cast<float>(texels) + offset;
     const int cell = static_cast<int>(position);
     Knot& k = result[static_cast<size_t>(x)];
     for (int n = 0; n < 4; ++n) k.at[static_cast<size_t>(n)] = wrapped(cell + n - 1, cells);
@@ -49,7 +49,9 @@ void addNoise(Field& field, glm::ivec2 cells, float amplitude, uint32_t seed) {
   const float scale = amplitude * 1.083F;
   const Size size = field.size;
   const auto width = static_cast<size_t>(size.width);
-  const std::vector<Knot> xs = knots(size.width, cells.x), ys = knots(size.height, cells.y);
+  // Noise is strongest at its lattice points: each octave begins elsewhere, so that they meet nowhere.
+  const std::vector<Knot> xs = knots(size.width, cells.x, chance(seed, 1)),
+                          ys = knots(size.height, cells.y, chance(seed, 2));
   std::vector<float> lattice(static_cast<size_t>(cells.x));
   std::vector<float> rows(static_cast<size_t>(cells.y) * width);
   for (int j = 0; j < cells.y; ++j) {
@@ -491,11 +493,15 @@ Image finish(const Surface& surface, const Light& light) {
 }
 
 glm::vec3 srgb(uint32_t hex) {
-  const auto channel = [&](int shift) {
-    const double s = static_cast<double>((hex >> shift) & 0xffU) / 255.0;
-    return static_cast<float>(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
-  };
-  return {channel(16), channel(8), channel(0)};
+  static const std::array<float, 256> linear = [] {
+    std::array<float, 256> t{};
+    for (size_t i = 0; i < t.size(); ++i) {
+      const double s = static_cast<double>(i) / 255.0;
+      t[i] = static_cast<float>(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
+    }
+    return t;
+  }();
+  return {linear[(hex >> 16) & 0xffU], linear[(hex >> 8) & 0xffU], linear[hex & 0xffU]};
 }
 
 float chance(uint32_t id, uint32_t salt) {
