@@ -28,6 +28,16 @@ struct DrawCounts {
   uint64_t drawCalls = 0;         ///< GL draw calls issued (an indirect multi-draw is one)
   uint64_t indirectCommands = 0;  ///< draws inside the indirect calls
   uint64_t textureBinds = 0;
+
+  DrawCounts& operator+=(const DrawCounts& more);
+  bool operator==(const DrawCounts&) const = default;
+};
+
+/// A part of a picture, for pictures that are drawn in pieces: the view's clip x and y are multiplied by `scale`, then
+/// `offset` is added, so that the piece fills the viewport. The default is the whole picture.
+struct PictureWindow {
+  glm::dvec2 scale{1};
+  glm::dvec2 offset{0};
 };
 
 /// Knobs of drawing (state_ordering, textures.budget_mb, textures.anisotropy, …).
@@ -43,14 +53,19 @@ class Scene {
   ~Scene();
 
   osg::Group* root() const;
-  void apply(const city::FramePlan& plan, Variant variant);
+  /// Writes the plan into the graph. The camera that draws `root` then needs `eyeFromWorld` and `clipFromEye`.
+  void apply(const city::FramePlan& plan, Variant variant, const PictureWindow& window = {});
+  const glm::dmat4& eyeFromWorld() const;
+  const glm::dmat4& clipFromEye() const;
   const DrawCounts& counts() const;
   /// Bytes allocated on the graphics card for buffers and textures.
   uint64_t gpuBytes() const;
   /// The graph as text: one line a node with its name, class and counts, indented (`vicus info --graph`).
   std::string describeGraph() const;
-  /// Names of the features made: "sky", "terrain", "buildings", "monuments", "trees", "water".
+  /// Names of the features made: "buildings", "monuments", "trees", "terrain", "ground", "sky", "water".
   std::vector<std::string> featureNames() const;
+  /// Names of the passes that the scene has, in the order drawn (passes.hpp).
+  std::vector<std::string> passNames() const;
 
  private:
   struct Impl;

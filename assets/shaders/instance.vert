@@ -1,5 +1,7 @@
 // Buildings and trees: one vertex of one instance, placed by the instance and tile tables.
 #include "vertex.glsl"
+#include "materials.glsl"
+#include "lighting.glsl"
 
 struct Instance {
   vec4 positionAndTile;  // metres from the tile's base; the tile's index in the bits of w
@@ -16,13 +18,10 @@ uniform mat4 clipFromEyeRelative;
 #ifdef ITEM_ID
 flat out uint item;
 #ifdef CUT_OUT
-#include "materials.glsl"
 out vec2 uv;
 flat out vec2 place;
 #endif
 #else
-#include "lighting.glsl"
-#include "materials.glsl"
 out vec2 uv;
 flat out vec2 place;
 out vec3 scale;

@@ -1,5 +1,7 @@
 // Monuments: ordinary geometry under OpenSceneGraph's transforms, multiplied in double with the eye's.
 #include "vertex.glsl"
+#include "materials.glsl"
+#include "lighting.glsl"
 
 uniform mat4 osg_ModelViewMatrix;
 uniform mat4 osg_ProjectionMatrix;
@@ -9,13 +11,10 @@ uniform mat3 worldFromEye;
 uniform uint itemId;
 flat out uint item;
 #ifdef CUT_OUT
-#include "materials.glsl"
 out vec2 uv;
 flat out vec2 place;
 #endif
 #else
-#include "lighting.glsl"
-#include "materials.glsl"
 out vec2 uv;
 flat out vec2 place;
 out vec3 scale;

@@ -1,0 +1,159 @@
+#include "scenegraph/arena_drawable.hpp"
+
+#include <osg/RenderInfo>
+#include <osg/State>
+
+namespace vicus::scenegraph {
+
+ArenaBuffers::ArenaBuffers(Arena arena) : arena_(std::move(arena)) {
+  for (const ArenaChunk& chunk : arena_.chunks) {
+    chunks_.push_back(std::make_unique<Chunk>());
+    bytes_ += chunk.vertices.size() * sizeof(city::Vertex) + chunk.indices.size() * sizeof(uint32_t);
+  }
+}
+
+GLuint ArenaBuffers::vertexArray(uint32_t index) {
+  Chunk& chunk = *chunks_[index];
+  if (chunk.vertexArray == 0) {
+    ArenaChunk& data = arena_.chunks[index];
+    chunk.vertices.fill(std::span<const city::Vertex>(data.vertices), GL_STATIC_DRAW);
+    chunk.indices.fill(std::span<const uint32_t>(data.indices), GL_STATIC_DRAW);
+    chunk.vertexArray = makeVertexArray(chunk.vertices, chunk.indices);
+    data = {};
+  }
+  return chunk.vertexArray;
+}
+
+void ArenaBuffers::release() {
+  for (const auto& chunk : chunks_) {
+    if (chunk->vertexArray != 0) glDeleteVertexArrays(1, &chunk->vertexArray);
+    chunk->vertices.release();
+    chunk->indices.release();
+  }
+}
+
+InstanceGroup::InstanceGroup(std::vector<GpuInstance> instances, std::vector<uint32_t> geometryOf)
+    : geometries(std::move(geometryOf)), instances_(std::move(instances)) {}
+
+void InstanceGroup::bind() {
+  if (!buffer_.exists()) {
+    buffer_.fill(std::span<const GpuInstance>(instances_), GL_STATIC_DRAW);
+    instances_ = {};
+  }
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kInstanceBinding, buffer_.name());
+}
+
+ArenaDrawable::ArenaDrawable(std::shared_ptr<ArenaBuffers> buffers, std::shared_ptr<InstanceGroup> group,
+                             std::shared_ptr<TileTable> tiles, std::shared_ptr<const MaterialTextures> textures,
+                             ArenaPart part, Ordering ordering)
+    : buffers_(std::move(buffers)),
+      group_(std::move(group)),
+      tiles_(std::move(tiles)),
+      textures_(std::move(textures)),
+      part_(part),
+      ordering_(ordering),
+      commands_(buffers_->arena().chunks.size()) {
+  setUseDisplayList(false);
+  setUseVertexBufferObjects(false);
+  setCullingActive(false);
+}
+
+DrawCounts ArenaDrawable::apply() {
+  DrawCounts counts;
+  const Arena& arena = buffers_->arena();
+  const auto part = static_cast<size_t>(part_);
+  for (auto& list : commands_) list.clear();
+  for (const uint32_t i : group_->drawn) {
+    const ArenaGeometry& g = arena.geometries[group_->geometries[i]];
+    if (g.parts[part].count == 0) continue;
+    counts.triangles += g.parts[part].count / 3;
+    if (ordering_ == Ordering::ByState) {
+      commands_[g.chunk].push_back({g.parts[part].count, 1, g.parts[part].first, g.baseVertex, i});
+    } else {
+      for (uint32_t p = g.planes.first; p < g.planes.end(); ++p)
+        counts.drawCalls += arena.planes[p].parts[part].count > 0;
+    }
+  }
+  if (ordering_ == Ordering::Scene) {
+    counts.textureBinds = counts.drawCalls;
+    return counts;
+  }
+  for (const auto& list : commands_) {
+    counts.indirectCommands += list.size();
+    counts.drawCalls += !list.empty();
+  }
+  return counts;
+}
+
+void ArenaDrawable::drawImplementation(osg::RenderInfo& info) const {
+  osg::State& state = *info.getState();
+  if (group_->drawn.empty()) return;
+  state.unbindVertexBufferObject();
+  group_->bind();
+  tiles_->bind(kTileBinding);
+  if (ordering_ == Ordering::ByState)
+    drawOrdered();
+  else
+    drawInSceneOrder(state);
+  glBindVertexArray(0);
+}
+
+void ArenaDrawable::drawOrdered() const {
+  size_t total = 0;
+  for (const auto& list : commands_) total += list.size();
+  if (total == 0) return;
+  // The chunks' lists go into one buffer one after another; most scenes have one chunk.
+  if (commands_.size() == 1) {
+    commandBuffer_.fill(std::span<const DrawCommand>(commands_[0]), GL_STREAM_DRAW);
+  } else {
+    std::vector<DrawCommand> all;
+    all.reserve(total);
+    for (const auto& list : commands_) all.insert(all.end(), list.begin(), list.end());
+    commandBuffer_.fill(std::span<const DrawCommand>(all), GL_STREAM_DRAW);
+  }
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commandBuffer_.name());
+  size_t first = 0;
+  for (uint32_t chunk = 0; chunk < commands_.size(); ++chunk) {
+    const size_t count = commands_[chunk].size();
+    if (count == 0) continue;
+    glBindVertexArray(buffers_->vertexArray(chunk));
+    glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
+                                reinterpret_cast<const void*>(first * sizeof(DrawCommand)), static_cast<GLsizei>(count),
+                                0);
+    first += count;
+  }
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
+}
+
+void ArenaDrawable::drawInSceneOrder(osg::State& state) const {
+  const Arena& arena = buffers_->arena();
+  const auto part = static_cast<size_t>(part_);
+  uint32_t bound = UINT32_MAX;
+  for (const uint32_t i : group_->drawn) {
+    const ArenaGeometry& g = arena.geometries[group_->geometries[i]];
+    if (g.parts[part].count == 0) continue;
+    if (g.chunk != bound) glBindVertexArray(buffers_->vertexArray(bound = g.chunk));
+    for (uint32_t p = g.planes.first; p < g.planes.end(); ++p) {
+      const ArenaPlane& plane = arena.planes[p];
+      if (plane.parts[part].count == 0) continue;
+      // The same texture as the state sets put on this unit, so OpenSceneGraph's record stays right.
+      const uint32_t textureClass = plane.material < textures_->classOf.size() ? textures_->classOf[plane.material] : 0;
+      state.setActiveTextureUnit(textureClass);
+      if (auto* texture = textures_->arrays[textureClass]->getTextureObject(state.getContextID())) texture->bind();
+      glDrawElementsInstancedBaseVertexBaseInstance(
+          GL_TRIANGLES, static_cast<GLsizei>(plane.parts[part].count), GL_UNSIGNED_INT,
+          reinterpret_cast<const void*>(plane.parts[part].first * sizeof(uint32_t)), 1, g.baseVertex, i);
+    }
+  }
+}
+
+void ArenaDrawable::releaseGLObjects(osg::State* state) const {
+  osg::Drawable::releaseGLObjects(state);
+  if (!state) return;
+  commandBuffer_.release();
+  group_->release();
+  buffers_->release();
+  tiles_->release();
+}
+
+}  // namespace vicus::scenegraph

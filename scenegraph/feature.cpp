@@ -1,0 +1,24 @@
+#include <algorithm>
+
+#include "scenegraph/features.hpp"
+
+namespace vicus::scenegraph {
+
+Feature::Feature(std::string name) : node_(new osg::Group) {
+  node_->setName(std::move(name));
+}
+
+void Feature::addSurface(osg::Node* node, const SurfaceStates& states, PassId pass) {
+  surfaces_.push_back({node, states});
+  if (std::find(passes_.begin(), passes_.end(), pass) == passes_.end()) passes_.push_back(pass);
+}
+
+void Feature::show(Variant variant) {
+  for (const Surface& s : surfaces_) {
+    osg::StateSet* states = s.states.of(variant);
+    s.node->setNodeMask(states ? ~0u : 0u);
+    if (states && s.node->getStateSet() != states) s.node->setStateSet(states);
+  }
+}
+
+}  // namespace vicus::scenegraph

@@ -1,0 +1,30 @@
+/// The colour of a city's ground, painted once from what covers it and how steep it is. No GL.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "city/city.hpp"
+
+namespace vicus::scenegraph {
+
+/// Square picture over the height field, row 0 in the south. rgb: square root of linear albedo; alpha: which detail
+/// goes with it, 0 grass, 0.5 earth, 1 stones.
+struct GroundMap {
+  int size = 0;
+  std::vector<uint8_t> rgba;
+};
+
+/// Colour of open country, as a texel of the map (0 to 1).
+glm::vec4 countrysideTexel();
+
+/// Side in pixels for a field of this extent (metres): a power of two, half a metre to a pixel or finer, `largest` at
+/// most and 64 at least.
+int groundMapSize(glm::dvec2 extent, int largest);
+
+/// Paints the map: the cover's classes with softened, slightly ragged borders, mottled; earth and rock where it is
+/// steep. Without cover: grass and meadows. Deterministic, rows in parallel.
+GroundMap paintGroundMap(const city::HeightField& field, const city::GroundCover* cover, int size);
+
+}  // namespace vicus::scenegraph

@@ -1,0 +1,35 @@
+/// The passes of one picture in the order drawn: the one list of them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace vicus::scenegraph {
+
+enum class PassId : uint8_t { Opaque, Ground, CutOut, Sky, Water };
+
+/// A pass exists only where the scene has something to draw in it.
+struct Pass {
+  PassId id;
+  std::string_view name;
+  int bin;                 ///< OpenSceneGraph's render bin number: passes run in ascending order
+  std::string_view needs;  ///< what a scene must have for it
+  bool items;              ///< drawn into item buffers too
+};
+
+constexpr std::array kPasses = {
+    Pass{PassId::Opaque, "opaque", 0, "buildings, trees or monuments", true},
+    // Ground after what stands on it: most of it is hidden and costs nothing then.
+    Pass{PassId::Ground, "ground", 1, "terrain or anything that stands on the ground", true},
+    // Separate, because a shader that discards takes the early depth test from all that it draws.
+    Pass{PassId::CutOut, "cut-out", 2, "a material whose picture has holes", true},
+    Pass{PassId::Sky, "sky", 3, "nothing: every picture has a sky", false},
+    Pass{PassId::Water, "water", 4, "water bodies", true},
+};
+
+constexpr const Pass& pass(PassId id) {
+  return kPasses[static_cast<size_t>(id)];
+}
+
+}  // namespace vicus::scenegraph

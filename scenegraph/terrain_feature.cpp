@@ -1,0 +1,166 @@
+#include "scenegraph/gl.hpp"
+
+#include <algorithm>
+#include <osg/Image>
+#include <osg/Texture2D>
+
+#include "scenegraph/features.hpp"
+#include "scenegraph/ground_map.hpp"
+#include "scenegraph/terrain_mesh.hpp"
+
+namespace vicus::scenegraph {
+namespace {
+
+/// A tile's patch in the ground map and in the detail's repeats, at the tile's base.
+using PatchUv = glm::vec4;
+
+class TerrainDrawable : public osg::Drawable {
+ public:
+  TerrainDrawable(TerrainMesh mesh, std::vector<PatchUv> uvs, std::shared_ptr<TileTable> tiles, Ordering ordering)
+      : mesh_(std::move(mesh)), uvs_(std::move(uvs)), tiles_(std::move(tiles)), ordering_(ordering) {
+    bytes_ = mesh_.vertices.size() * sizeof(TerrainVertex) + mesh_.indices.size() * sizeof(uint32_t) +
+             uvs_.size() * sizeof(PatchUv);
+    setUseDisplayList(false);
+    setCullingActive(false);
+  }
+  uint64_t bytes() const { return bytes_; }
+
+  DrawCounts apply(const city::FramePlan& plan) {
+    commands_.clear();
+    order_.clear();
+    auto next = mesh_.patches.begin();
+    for (const uint32_t tile : plan.tiles) {
+      while (next != mesh_.patches.end() && next->tile < tile) ++next;
+      if (next != mesh_.patches.end() && next->tile == tile)
+        order_.emplace_back(0.0f, static_cast<uint32_t>(next - mesh_.patches.begin()));
+    }
+    if (ordering_ == Ordering::ByState) {  // near to far
+      for (auto& [distance, patch] : order_) {
+        const glm::vec2 away(tiles_->fromEye()[mesh_.patches[patch].tile]);
+        distance = glm::dot(away, away);
+      }
+      std::stable_sort(order_.begin(), order_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    }
+    DrawCounts counts;
+    for (const auto& entry : order_) {
+      const TerrainPatch& p = mesh_.patches[entry.second];
+      commands_.push_back({p.indices.count, 1, p.indices.first, static_cast<int32_t>(p.baseVertex), p.tile});
+      counts.triangles += p.indices.count / 3;
+    }
+    counts.terrainTriangles = counts.triangles;
+    const bool ordered = ordering_ == Ordering::ByState;
+    counts.drawCalls = ordered ? !commands_.empty() : commands_.size();
+    counts.indirectCommands = ordered ? commands_.size() : 0;
+    counts.textureBinds = ordered ? 0 : commands_.size();
+    return counts;
+  }
+
+  void drawImplementation(osg::RenderInfo& info) const override {
+    if (commands_.empty()) return;
+    info.getState()->unbindVertexBufferObject();
+    if (vertexArray_ == 0) upload();
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kInstanceBinding, uvBuffer_.name());
+    tiles_->bind(kTileBinding);
+    glBindVertexArray(vertexArray_);
+    if (ordering_ == Ordering::ByState) {
+      commandBuffer_.fill(std::span<const DrawCommand>(commands_), GL_STREAM_DRAW);
+      glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commandBuffer_.name());
+      glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr, static_cast<GLsizei>(commands_.size()), 0);
+      glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
+    } else {
+      for (const DrawCommand& c : commands_) {
+        rebindMap(*info.getState());
+        glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(c.count), GL_UNSIGNED_INT,
+                                                      reinterpret_cast<const void*>(c.firstIndex * sizeof(uint32_t)), 1,
+                                                      c.baseVertex, c.baseInstance);
+      }
+    }
+    glBindVertexArray(0);
+  }
+
+  void setMap(osg::Texture2D* map) { map_ = map; }
+
+  void releaseGLObjects(osg::State* state) const override {
+    osg::Drawable::releaseGLObjects(state);
+    if (!state) return;
+    if (vertexArray_ != 0) glDeleteVertexArrays(1, &vertexArray_);
+    vertexArray_ = 0;
+    for (GlBuffer* buffer : {&vertices_, &indices_, &uvBuffer_, &commandBuffer_}) buffer->release();
+    tiles_->release();
+  }
+  const char* className() const override { return "TerrainDrawable"; }
+  osg::Object* cloneType() const override { return nullptr; }
+  osg::Object* clone(const osg::CopyOp&) const override { return nullptr; }
+
+ private:
+  void upload() const {
+    vertices_.fill(std::span<const TerrainVertex>(mesh_.vertices), GL_STATIC_DRAW);
+    indices_.fill(std::span<const uint32_t>(mesh_.indices), GL_STATIC_DRAW);
+    uvBuffer_.fill(std::span<const PatchUv>(uvs_), GL_STATIC_DRAW);
+    mesh_.vertices = {};
+    mesh_.indices = {};
+    glGenVertexArrays(1, &vertexArray_);
+    glBindVertexArray(vertexArray_);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.name());
+    glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
+    constexpr auto kStride = static_cast<GLsizei>(sizeof(TerrainVertex));
+    glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, kStride, nullptr);
+    glVertexAttribPointer(2, 2, GL_SHORT, GL_TRUE, kStride,
+                          reinterpret_cast<const void*>(offsetof(TerrainVertex, normal)));
+    glEnableVertexAttribArray(0);
+    glEnableVertexAttribArray(2);
+    glBindVertexArray(0);
+    glBindBuffer(GL_ARRAY_BUFFER, 0);
+  }
+
+  void rebindMap(osg::State& state) const {
+    state.setActiveTextureUnit(kGroundMapUnit);
+    if (auto* texture = map_->getTextureObject(state.getContextID())) texture->bind();
+  }
+
+  mutable TerrainMesh mesh_;
+  std::vector<PatchUv> uvs_;
+  std::shared_ptr<TileTable> tiles_;
+  Ordering ordering_;
+  osg::ref_ptr<osg::Texture2D> map_;
+  uint64_t bytes_ = 0;
+  std::vector<DrawCommand> commands_;
+  std::vector<std::pair<float, uint32_t>> order_;  ///< distance squared, patch
+  mutable GLuint vertexArray_ = 0;
+  mutable GlBuffer vertices_, indices_, uvBuffer_, commandBuffer_;
+};
+
+class Terrain : public Feature {
+ public:
+  Terrain(const city::City& city, const SceneParts& parts) : Feature("terrain") {
+    const city::HeightField& field = *city.terrain;
+    std::vector<glm::dvec3> bases;
+    std::vector<PatchUv> uvs;
+    for (uint32_t t = 0; t < city.grid.tileCount(); ++t) {
+      bases.push_back(parts.tiles->base(t));
+      const glm::dvec2 inMap = (glm::dvec2(bases.back()) - field.origin) / field.extent();
+      const glm::dvec2 inDetail = glm::fract(glm::dvec2(bases.back()) / kGroundDetailMetres);
+      uvs.emplace_back(glm::vec2(inMap), glm::vec2(inDetail));
+    }
+    drawable_ = new TerrainDrawable(terrainMesh(field, city.grid, bases), std::move(uvs), parts.tiles, parts.ordering);
+    drawable_->setName("terrain/patches");
+    drawable_->setMap(parts.groundMap);
+    node_->addChild(drawable_);
+    const glm::vec2 mapRepeats(1.0 / field.extent());
+    node_->getOrCreateStateSet()->addUniform(new osg::Uniform("mapRepeats", osg::Vec2f(mapRepeats.x, mapRepeats.y)));
+    addSurface(drawable_, surfaceStates(PassId::Ground, "terrain.vert", "ground.frag", {"GROUND_MAP"}), PassId::Ground);
+    gpuBytes_ = drawable_->bytes();
+  }
+  DrawCounts apply(const city::FramePlan& plan) override { return drawable_->apply(plan); }
+
+ private:
+  osg::ref_ptr<TerrainDrawable> drawable_;
+};
+
+}  // namespace
+
+std::unique_ptr<Feature> makeTerrain(const city::City& city, const SceneParts& parts) {
+  return std::make_unique<Terrain>(city, parts);
+}
+
+}  // namespace vicus::scenegraph
