@@ -2,6 +2,7 @@
 
 #include <gdal_priv.h>
 
+#include <bit>
 #include <charconv>
 #include <exception>
 #include <filesystem>
@@ -9,6 +10,10 @@
 #include <memory>
 #include <sstream>
 
+#include "assets/cache/blob_cache.hpp"
+#include "assets/cache/builder_version.hpp"
+#include "assets/cache/city_codec.hpp"
+#include "assets/cache/hash.hpp"
 #include "assets/import/gdal_messages.hpp"
 #include "assets/import/import_city.hpp"
 #include "assets/import/projection.hpp"
@@ -162,6 +167,58 @@ LoadResult loadFiles(std::span<const std::string> inputs, const LoadOptions& opt
   return result;
 }
 
+/// The scene's file in the cache, and the hash of all that its city is made from.
+struct CachePlace {
+  fs::path file;
+  std::string hash;
+};
+
+CachePlace cachePlaceOf(std::span<const std::string> inputs, const LoadOptions& options) {
+  Hash64 scene;
+  std::error_code error;
+  for (const auto& list : {inputs, std::span<const std::string>(options.elevation)}) {
+    scene.addNumber(list.size());
+    for (const std::string& file : list) scene.addText(fs::absolute(file, error).string());
+  }
+  for (const std::string& text : {options.heightColumn, options.groundColumn, options.crs}) scene.addText(text);
+  for (const double shift : {options.shift.x, options.shift.y, options.shift.z})
+    scene.addNumber(std::bit_cast<uint64_t>(shift));
+  Hash64 content = scene;
+  for (const auto& list : {inputs, std::span<const std::string>(options.elevation)})
+    for (const std::string& file : list) addContent(content, file);
+  const std::string name = inputs.empty() ? "city" : fs::path(inputs[0]).stem().string();
+  return {fs::path(options.cacheFolder) / (name + "-" + scene.text() + ".sqlite"), content.text()};
+}
+
+/// The city as it was when these files were last read, else as they are read now.
+LoadResult loadThroughCache(std::span<const std::string> inputs, const LoadOptions& options) {
+  constexpr std::string_view kKind = "city";
+  if (options.progress) options.progress("cache", 0);
+  city::Diagnostics ofCache;
+  const CachePlace place = cachePlaceOf(inputs, options);
+  BlobCache cache(place.file, ofCache);
+  if (const auto bytes = cache.read(kKind, place.hash, kBuilderVersion)) {
+    if (auto cached = decodeCity(*bytes)) {
+      LoadResult result{std::move(cached->city), std::move(cached->diagnostics), true};
+      result.diagnostics.messages.insert(result.diagnostics.messages.end(), ofCache.messages.begin(),
+                                         ofCache.messages.end());
+      return result;
+    }
+    ofCache.warn(place.file.string(), "", "the city in the cache is damaged and is made anew");
+  }
+  LoadResult result = loadFiles(inputs, options);
+  if (result.city) {
+    if (options.progress) options.progress("cache", 0.5);
+    CachedCity cached{std::move(*result.city), std::move(result.diagnostics)};
+    cache.write(kKind, place.hash, kBuilderVersion, encodeCity(cached));
+    result.city = std::move(cached.city);
+    result.diagnostics = std::move(cached.diagnostics);
+  }
+  result.diagnostics.messages.insert(result.diagnostics.messages.end(), ofCache.messages.begin(),
+                                     ofCache.messages.end());
+  return result;
+}
+
 }  // namespace
 
 LoadResult loadCity(std::span<const std::string> inputs, const LoadOptions& options) {
@@ -175,7 +232,7 @@ LoadResult loadCity(std::span<const std::string> inputs, const LoadOptions& opti
       }
       return loadBuiltIn(input, options);
     }
-    return loadFiles(inputs, options);
+    return options.cacheFolder.empty() ? loadFiles(inputs, options) : loadThroughCache(inputs, options);
   } catch (const std::exception& e) {
     result.city.reset();
     result.diagnostics.error(inputs.empty() ? "" : inputs[0], "", std::string("could not be loaded: ") + e.what());
