@@ -368,15 +368,20 @@ Tour makeFlyover(const City& city) {
     plan.push_back(middle + out * glm::dvec2(std::cos(angle), std::sin(angle)));
     above.push_back(glm::mix(lowest, highest, std::cos(pi * t) * std::cos(pi * t)));
   }
-  std::vector<double> floor(plan.size());
-  for (size_t k = 0; k < plan.size(); ++k) floor[k] = highestWithin(city, plan[k], std::max(0.08 * radius, 15.0));
+  // Heights over what lies below, then raised so that no stretch climbs or falls more steeply than a glider would: the
+  // flight rises before what it must clear.
+  constexpr double kSteepest = 0.6;  // metres of height for each metre of way
+  const double look = std::max(0.08 * radius, 15.0);
+  std::vector<double> height(plan.size());
+  for (size_t k = 0; k < plan.size(); ++k) height[k] = highestWithin(city, plan[k], look) + above[k];
+  for (size_t k = 1; k < plan.size(); ++k)
+    height[k] = std::max(height[k], height[k - 1] - kSteepest * glm::distance(plan[k], plan[k - 1]));
+  for (size_t k = plan.size() - 1; k > 0; --k)
+    height[k - 1] = std::max(height[k - 1], height[k] - kSteepest * glm::distance(plan[k], plan[k - 1]));
   for (size_t k = 0; k < plan.size(); ++k) {
-    // The highest of the stretch ahead and behind, so that the flight rises before what it must clear.
-    double clear = floor[k];
-    for (size_t n = k > 2 ? k - 2 : 0; n < std::min(k + 3, plan.size()); ++n) clear = std::max(clear, floor[n]);
     Tour::Key key;
     key.time = kSeconds * static_cast<double>(k) / (kKeys - 1);
-    key.position = glm::dvec3(plan[k], clear + above[k]);
+    key.position = glm::dvec3(plan[k], height[k]);
     tour.keys.push_back(key);
   }
   const glm::dvec3 target(middle, groundAt(city, middle));
