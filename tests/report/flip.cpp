@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "pictures.hpp"
-#include "report/picture_file.hpp"
+#include "viewer/pictures.hpp"
 
 namespace vicus::report {
 namespace {
@@ -31,8 +31,8 @@ TEST_P(FlipPublished, EqualsTheAuthorsProgram) {
   const auto folder = testing::dataFolder() / "flip";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no FLIP pictures in " << folder;
   std::string error;
-  const auto reference = readPicture(folder / GetParam().reference, error);
-  const auto test = readPicture(folder / GetParam().test, error);
+  const auto reference = viewer::readPicture(folder / GetParam().reference, error);
+  const auto test = viewer::readPicture(folder / GetParam().test, error);
   ASSERT_TRUE(reference && test) << error;
   const FlipResult result = flip(*reference, *test);
   EXPECT_NEAR(meanInSinglePrecision(result.map), GetParam().mean, 1e-5);

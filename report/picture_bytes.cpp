@@ -1,4 +1,4 @@
-#include "report/picture_file.hpp"
+#include "report/picture_bytes.hpp"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -9,27 +9,6 @@
 #include <string_view>
 
 namespace vicus::report {
-
-std::optional<viewer::Picture> readPicture(const std::string& path, std::string& error) {
-  const auto input = OIIO::ImageInput::open(path);
-  if (!input) {
-    error = OIIO::geterror();
-    return std::nullopt;
-  }
-  const OIIO::ImageSpec& spec = input->spec();
-  const auto pixels = static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height);
-  const auto channels = static_cast<size_t>(spec.nchannels);
-  std::vector<uint8_t> raw(pixels * channels);
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, raw.data())) {
-    error = input->geterror();
-    return std::nullopt;
-  }
-  viewer::Picture picture{spec.width, spec.height, std::vector<uint8_t>(pixels * 3)};
-  const size_t step = channels >= 3 ? 1 : 0;
-  for (size_t i = 0; i < pixels; ++i)
-    for (size_t c = 0; c < 3; ++c) picture.rgb[3 * i + c] = raw[i * channels + c * step];
-  return picture;
-}
 
 std::vector<uint8_t> pngBytes(const viewer::Picture& picture) {
   std::vector<uint8_t> bytes;
