@@ -94,7 +94,7 @@ class HouseMaker {
     for (size_t i = 0; i < plan_.storeys.size(); ++i) {
       const Storey& s = plan_.storeys[i];
       reach += s.jetty;
-      addStorey(s, i == 0 ? -kFoundationDepth : floor, floor, reach, i + 1 == plan_.storeys.size());
+      addStorey(s, i == 0 ? -kFoundationDepth : floor, floor, reach);
       floor += s.height;
     }
     addRoof(floor, reach);
@@ -232,7 +232,7 @@ class HouseMaker {
              kAbove | kLeft);
   }
 
-  void addStorey(const Storey& s, float bottom, float floor, float reach, bool last) {
+  void addStorey(const Storey& s, float bottom, float floor, float reach) {
     const float top = floor + s.height;
     const float w = plan_.width, d = plan_.depth;
     const bool ground = bottom < floor;
@@ -266,7 +266,6 @@ class HouseMaker {
       addQuadFacing(builder_, {-0.5f * w, y0, floor}, {0.5f * w, y0, floor}, {0.5f * w, y1, floor},
                     {-0.5f * w, y1, floor}, {0, 0, -1}, kPlanks);
     }
-    (void)last;
   }
 
   void addAwning(const WallFrame& frame, const Storey& s) {

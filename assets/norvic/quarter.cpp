@@ -484,7 +484,6 @@ class QuarterPlanner {
           if (glm::dot(along, at - brief_.centre) < 0) along = -along;
           out_.gates.push_back({at, along, line.style.width});
         }
-      (void)length;
       stretches.back().push_back(a);
       const int steps = static_cast<int>(std::ceil(length / 2));
       for (int k = 1; k <= steps; ++k) stretches.back().push_back(glm::mix(a, b, static_cast<double>(k) / steps));

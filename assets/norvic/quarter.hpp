@@ -52,7 +52,7 @@ struct Plot {
   uint32_t seed = 0;
 };
 
-enum class SpotKind : uint8_t { Church, Cathedral, Castle, MarketCross, Bridge, Well };
+enum class SpotKind : uint8_t { Church, Cathedral, Castle, MarketCross, Bridge };
 
 /// A monument in its place.
 struct Spot {
