@@ -31,7 +31,7 @@ void report(const LoadOptions& options, std::string_view stage, double fraction)
 
 /// "17, 33, 41 and 12 more".
 std::string list(const std::vector<std::string>& names) {
-  constexpr size_t kShown = 20;
+  constexpr size_t kShown = 10;
   std::string out;
   for (size_t i = 0; i < std::min(names.size(), kShown); ++i) out += (i ? ", " : "") + names[i];
   if (names.size() > kShown) out += " and " + std::to_string(names.size() - kShown) + " more";
@@ -86,11 +86,15 @@ city::Aabb planExtent(Source& source) {
 std::string chooseCrs(std::vector<Source>& sources, std::span<const ElevationRaster> rasters,
                       city::Diagnostics& diagnostics) {
   std::string crs;
-  for (Source& s : sources) {
-    if (!crs.empty() || s.crs.empty()) continue;
+  std::erase_if(sources, [&](Source& s) {
     const city::Aabb box = planExtent(s);
-    if (!box.empty()) crs = metricCrs(s.crs, box.centre());
-  }
+    if (s.crs.empty() || box.empty()) return false;
+    const std::string metric = metricCrs(s.crs, box.centre());
+    if (crs.empty()) crs = metric;
+    if (metric.empty())
+      diagnostics.error(s.file, "", "its CRS " + crsName(s.crs) + " cannot be brought into metres on the plan");
+    return metric.empty();
+  });
   for (const ElevationRaster& r : rasters)
     if (crs.empty() && !r.crs.empty()) {
       const city::Aabb box = extentOf(r, r.crs);
@@ -102,7 +106,7 @@ std::string chooseCrs(std::vector<Source>& sources, std::span<const ElevationRas
     if (box.empty()) return false;
     // A town is larger than two metres and smaller than two degrees.
     const glm::dvec3 size = box.size();
-    if (std::max(size.x, size.y) < 2 && std::abs(box.min.x) <= 360 && std::abs(box.max.x) <= 360 &&
+    if (!s.metric && std::max(size.x, size.y) < 2 && std::abs(box.min.x) <= 360 && std::abs(box.max.x) <= 360 &&
         std::abs(box.min.y) <= 90 && std::abs(box.max.y) <= 90) {
       diagnostics.error(s.file, "",
                         "states no CRS, and its coordinates look like degrees: give one with --crs "
@@ -125,7 +129,7 @@ void project(Source& source, const std::string& crs, glm::dvec3 shift, city::Dia
     const auto failed = transform(source.crs, crs, points);
     if (!failed) {
       diagnostics.error(source.file, "", "cannot be brought from " + crsName(source.crs) + " to " + crsName(crs));
-      source = Source{source.file, source.crs, {}, {}, {}};
+      source.footprints.clear(), source.buildings.clear(), source.tin = {};
       return;
     }
     if (*failed > 0)
@@ -136,8 +140,10 @@ void project(Source& source, const std::string& crs, glm::dvec3 shift, city::Dia
   }
   forEachPoint(source, [&](double& x, double& y) { x += shift.x, y += shift.y; });
   for (Footprint& f : source.footprints) f.ground += shift.z;
-  for (SurfaceBuilding& b : source.buildings)
+  for (SurfaceBuilding& b : source.buildings) {
+    b.ground += shift.z;
     for (glm::dvec3& q : b.points) q.z += shift.z;
+  }
   for (glm::dvec3& q : source.tin.points) q.z += shift.z;
 }
 
@@ -352,6 +358,16 @@ void makeTerrain(Assembly& a, const std::vector<Source>& sources, const std::vec
     if (std::isfinite(o.ground)) {
       known.emplace_back(middleOf(o), o.ground);
       if (groundFile.empty()) groundFile = *o.file;
+    }
+  for (const Source& s : sources)
+    for (const SurfaceBuilding& b : s.buildings) {
+      city::Aabb around;
+      for (const glm::dvec3& p : b.points)
+        if (std::isfinite(p.x + p.y + p.z)) around.extend(p - a.city.origin);
+      if (around.empty()) continue;
+      const double ground = std::isfinite(b.ground) ? b.ground - a.city.origin.z : around.min.z;
+      known.emplace_back(glm::dvec2(around.centre()), ground);
+      if (groundFile.empty()) groundFile = s.file;
     }
   constexpr size_t kFewest = 3;  // fewer say nothing of a terrain's form
   if (known.size() < kFewest) return;

@@ -20,8 +20,11 @@ class GdalMessages;
 /// and z = 0 at the mean height of the ground along its outline, from where its height counts; its walls reach 0.3 m
 /// below the lowest ground there, and at least 0.5 m down.
 ///
-/// Terrain: the rasters where there are any; else the sources' triangulated terrain; else, where footprints say their
-/// ground's altitude, a surface through these; else none, and the city is flat.
+/// A building of surfaces keeps its own altitude.
+///
+/// Terrain: the rasters where there are any; else the sources' triangulated terrain; else a surface through the ground
+/// altitudes that footprints state and those that buildings of surfaces state or begin at; else none, and the city is
+/// flat.
 ///
 /// Nothing where neither buildings nor terrain are left.
 std::optional<city::City> assembleCity(std::vector<Source> sources, std::span<const ElevationRaster> rasters,

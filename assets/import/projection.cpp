@@ -63,6 +63,7 @@ CrsKind kindOf(const std::string& wkt) {
 std::string metricCrs(const std::string& wkt, glm::dvec2 centre) {
   const auto crs = fromWkt(wkt);
   if (!crs) return {};
+  if (crs->IsGeocentric()) return {};
   if ((crs->IsProjected() || crs->IsLocal()) && std::abs(crs->GetLinearUnits() - 1) < 1e-9) return wkt;
   OGRSpatialReference degrees;
   degrees.SetWellKnownGeogCS("WGS84");

@@ -20,7 +20,8 @@ struct CrsKind {
 CrsKind kindOf(const std::string& wkt);
 
 /// The CRS that a city whose centre lies at `centre` (in `wkt`) is built in: `wkt` itself where it is projected and in
-/// metres, else the UTM zone of the centre. Empty where the centre cannot be placed on the earth.
+/// metres, else the UTM zone of the centre. Empty where the centre cannot be placed on the earth, and for geocentric
+/// CRSs, whose z is no height.
 std::string metricCrs(const std::string& wkt, glm::dvec2 centre);
 
 /// "EPSG:2154" where the CRS has a code, else its WKT on one line.

@@ -105,13 +105,14 @@ void flatten(const Json& value, const std::string& name, int depth, city::Attrib
   }
 }
 
-/// First number > 0 among attributes with one of the usual names; an object's "value" counts as the attribute.
-double numberNamed(const city::Attributes& attributes, std::span<const std::string_view> names) {
+/// First number among attributes with one of the usual names; an object's "value" counts as the attribute.
+double firstNumberNamed(const city::Attributes& attributes, std::span<const std::string_view> names,
+                        double above = -INFINITY) {
   std::vector<std::string> keys;
   for (const auto& [key, value] : attributes)
     keys.push_back(key.ends_with(".value") ? key.substr(0, key.size() - 6) : key);
   for (const size_t i : columnsNamed(keys, names))
-    if (const double v = numberIn(attributes[i].second); v > 0) return v;
+    if (const double v = numberIn(attributes[i].second); v > above) return v;
   return kUnknown;
 }
 
@@ -121,11 +122,11 @@ double heightIn(const city::Attributes& attributes, const std::string& column) {
     for (const auto& [key, value] : attributes)
       if (key == name[0] || key == column + ".value") return numberIn(value);
   }
-  const double height = numberNamed(attributes, heightNames());
+  const double height = firstNumberNamed(attributes, heightNames(), 0);
   if (height > 0) return height;
-  const double storeys = numberNamed(attributes, storeyNames());
+  const double storeys = firstNumberNamed(attributes, storeyNames(), 0);
   static constexpr std::string_view kStorey[] = {"floorheight", "storeyheight"};
-  const double storey = numberNamed(attributes, kStorey);
+  const double storey = firstNumberNamed(attributes, kStorey, 0);
   return storeys * (storey > 0 ? storey : kStoreyHeight);
 }
 
@@ -380,6 +381,7 @@ void Reader::addFamily(const std::string& id, const std::vector<std::string>& me
   }
   if (!building.surfaces.empty()) {
     building.id = id;
+    building.ground = firstNumberNamed(attributes, groundNames());
     building.attributes = std::move(attributes);
     source.buildings.push_back(std::move(building));
   } else if (!footprint.parts.empty()) {
@@ -417,6 +419,7 @@ void Reader::addTerrain(const std::string& id, const Json& object, Tin& tin) {
 Source Reader::read() {
   Source source;
   source.file = file_;
+  source.metric = true;
   const std::string version = textOf(member(root_, "version"));
   if (!(version.starts_with("1.") || version.starts_with("2.")))
     diagnostics_.warn(

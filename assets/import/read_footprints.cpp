@@ -57,6 +57,7 @@ struct Columns {
   std::vector<size_t> height, storeys, ground;
   std::optional<size_t> building;  ///< only in OpenStreetMap's own tables, which hold every kind of polygon
   std::optional<size_t> tags;
+  bool noBuildings = false;  ///< one of OpenStreetMap's tables that hold none
 };
 
 Columns findColumns(OGRLayer& layer, const FootprintColumns& wanted, const std::string& file,
@@ -89,6 +90,7 @@ Columns findColumns(OGRLayer& layer, const FootprintColumns& wanted, const std::
     fromOpenStreetMap = fromOpenStreetMap || out.names[i] == "osm_id" || out.names[i] == "@id";
   }
   if (fromOpenStreetMap) out.building = building;
+  out.noBuildings = fromOpenStreetMap && !building;
   return out;
 }
 
@@ -150,6 +152,11 @@ Source readFootprints(GDALDataset& dataset, const std::string& file, const Footp
       continue;
     }
     const Columns columns = findColumns(*layer, wanted, file, diagnostics);
+    if (columns.noBuildings) {
+      diagnostics.leftOut.push_back(
+          {std::string("layer ") + layer->GetName(), 1, "it has no column building, so its shapes are no buildings"});
+      continue;
+    }
     std::string crs;
     if (const OGRSpatialReference* reference = layer->GetSpatialRef()) {
       char* wkt = nullptr;

@@ -38,6 +38,7 @@ struct SurfaceBuilding {
   std::string id;
   std::vector<glm::dvec3> points;
   std::vector<Surface> surfaces;
+  double ground = kUnknown;  ///< altitude of the ground, metres; unknown: its lowest point's
   city::Attributes attributes;
 };
 
@@ -50,7 +51,8 @@ struct Tin {
 /// The content of one file.
 struct Source {
   std::string file;
-  std::string crs;  ///< WKT; empty: the file states none
+  std::string crs;      ///< WKT; empty: the file states none
+  bool metric = false;  ///< the format says metres, where the file states no CRS
   std::vector<Footprint> footprints;
   std::vector<SurfaceBuilding> buildings;
   Tin tin;

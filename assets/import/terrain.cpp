@@ -147,9 +147,10 @@ double spacingOf(const Tin& tin) {
         std::abs(cross(glm::dvec2(tin.points[t.y] - tin.points[t.x]), glm::dvec2(tin.points[t.z] - tin.points[t.x]))) /
         2;
   if (tin.triangles.empty() || !(area > 0)) return 1;
-  // The edge of an equilateral triangle of the mean area.
+  // The edge of an equilateral triangle of the mean area. Few large triangles have sharp folds between them, so even
+  // then samples stay near enough to follow these: 4 m was tuned on Jerusalem's 26 triangles over 500 m.
   const double edge = std::sqrt(area / static_cast<double>(tin.triangles.size()) * 4 / std::sqrt(3.0));
-  return std::max(0.5, std::floor(edge / 2 * 4) / 4);
+  return std::clamp(std::floor(edge) / 4, 0.5, 4.0);
 }
 
 city::HeightField fieldThrough(std::span<const glm::dvec3> points, const city::Aabb& extent, double spacing) {

@@ -27,7 +27,7 @@ uint64_t fillByMembrane(city::HeightField& field);
 /// each other the highest counts. Positions relative to the city's origin. Returns the number of samples covered.
 uint64_t rasteriseTin(const Tin& tin, city::HeightField& field);
 
-/// Spacing in metres that shows a TIN's own detail: half the mean edge of its triangles' plan, at least 0.5.
+/// Spacing in metres that shows a TIN's own detail: a quarter of the mean edge of its triangles' plan, 0.5 to 4.
 double spacingOf(const Tin& tin);
 
 /// A field through scattered ground altitudes, points in metres from the city's origin: each sample takes the mean of
