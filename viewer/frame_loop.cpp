@@ -27,29 +27,39 @@ std::span<const city::Knob> viewerKnobs() {
   return kViewerKnobs;
 }
 
+FrameRecord drawFrame(const Stage& stage, Clock::time_point begin, const std::function<city::FramePlan()>& makePlan) {
+  FrameRecord record;
+
+  // Plan: everything decided, nothing drawn.
+  const city::FramePlan plan = makePlan();
+  for (const city::StageTime& s : plan.stages) record.stages.push_back({s.name, s.milliseconds});
+
+  // Apply, traverse, finish: the plan into the scene graph, and the scene graph onto the card.
+  const DrawTimes times = stage.renderer.draw(plan);
+  record.stages.push_back({"apply", times.apply});
+  record.stages.push_back({"traverse", times.traverse});
+  record.stages.push_back({"finish", times.finish});
+  record.milliseconds = millisecondsSince(begin);
+  record.counts = plan.counts;
+  record.draw = stage.scene.counts();
+  return record;
+}
+
 std::vector<FrameRecord> runFrames(const Stage& stage, const LoopHooks& hooks) {
   std::vector<FrameRecord> records;
   size_t frame = 0;
   plan::PlannerState state;
   for (;;) {
     const Clock::time_point begin = Clock::now();
-    FrameRecord record;
 
     // Input: where the eye is now.
     const std::optional<NextView> next = hooks.nextView();
     if (!next) return records;
-    record.stages.push_back({"input", millisecondsSince(begin)});
+    const double input = millisecondsSince(begin);
 
-    // Plan: everything decided, nothing drawn.
-    const city::FramePlan plan = stage.planner.plan(stage.city, next->view, next->dt, state);
-    for (const city::StageTime& s : plan.stages) record.stages.push_back({s.name, s.milliseconds});
-
-    // Apply, traverse, finish: the plan into the scene graph, and the scene graph onto the card.
-    const DrawTimes times = stage.renderer.draw(plan);
-    record.stages.push_back({"apply", times.apply});
-    record.stages.push_back({"traverse", times.traverse});
-    record.stages.push_back({"finish", times.finish});
-    record.milliseconds = millisecondsSince(begin);
+    FrameRecord record =
+        drawFrame(stage, begin, [&] { return stage.planner.plan(stage.city, next->view, next->dt, state); });
+    record.stages.insert(record.stages.begin(), {"input", input});
 
     // Swap: show it.
     const Clock::time_point drawn = Clock::now();
@@ -58,8 +68,6 @@ std::vector<FrameRecord> runFrames(const Stage& stage, const LoopHooks& hooks) {
     record.stages.push_back({"swap", millisecondsSince(drawn)});
 
     if (next->warmUp) continue;
-    record.counts = plan.counts;
-    record.draw = stage.scene.counts();
     if (hooks.drawn) hooks.drawn(frame, record);
     ++frame;
     if (hooks.keepRecords) records.push_back(std::move(record));

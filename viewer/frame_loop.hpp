@@ -1,6 +1,7 @@
 /// The one render loop.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
@@ -51,6 +52,11 @@ struct Stage {
   Renderer& renderer;
   GlContext& context;
 };
+
+/// The measured part of a frame: makes the plan, draws it and waits for the card. The record's stages are the plan's
+/// steps, apply, traverse and finish; its time runs from `begin`.
+FrameRecord drawFrame(const Stage& stage, std::chrono::steady_clock::time_point begin,
+                      const std::function<city::FramePlan()>& makePlan);
 
 /// What differs between a window and a row of pictures.
 struct LoopHooks {
