@@ -117,7 +117,7 @@ void drawWindow(Surface& wall, const Window& look) {
 
 Image facadeLimestone() {
   Surface wall = ashlarWall(kFull, kBay, 920);
-  drawWindow(wall, {srgb(0xb9b4a8), srgb(0xc9bda2), true, true, true, srgb(0x8b938c)});
+  drawWindow(wall, {srgb(0xb9b4a8), srgb(0xc4baa6), true, true, true, srgb(0x8b938c)});
   return finish(wall, {0.32F, 0.18F, 5});
 }
 

@@ -26,14 +26,6 @@ Field woodGrain(Size size, int rings, uint32_t seed) {
   return grainField;
 }
 
-void paintBoard(Surface& surface, const Rect& rect, glm::vec3 colour, const Field& wood, float height) {
-  repaint(surface, rect, [&](int x, int y, const Texel&, int edge) {
-    const size_t i = static_cast<size_t>(y) * static_cast<size_t>(surface.size.width) + static_cast<size_t>(x);
-    const float bevel = edge == 0 ? 0.5F : (edge == 1 ? 0.85F : 1.0F);
-    return Texel{colour * (1 + 0.16F * wood[i]), height * bevel + 0.5F * wood[i]};
-  });
-}
-
 namespace {
 
 /// Upright boards edge to edge over the whole picture.

@@ -67,9 +67,6 @@ Image facadePlasterShutters();
 
 /// Colour of the lime plaster on houses, linear.
 glm::vec3 plasterColour();
-/// A board's own colour variation and grain, painted over a surface's rectangle in texels; the grain runs along y.
-void paintBoard(pattern::Surface& surface, const pattern::Rect& rect, glm::vec3 colour, const pattern::Field& woodGrain,
-                float height);
 /// Grain of wood along y, rms about 0.5: `rings` streaks across the picture.
 pattern::Field woodGrain(pattern::Size size, int rings, uint32_t seed);
 

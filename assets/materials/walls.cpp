@@ -1,13 +1,12 @@
 #include <array>
 
 #include "assets/materials/recipes.hpp"
-#include "city/random.hpp"
 
 namespace vicus::assets::recipes {
 using namespace pattern;
 
 glm::vec3 plasterColour() {
-  return srgb(0xcdbfa3);
+  return srgb(0xcbc0aa);
 }
 
 Surface plasterWall(Size size, glm::vec2 metres, glm::vec3 base, uint32_t seed) {
