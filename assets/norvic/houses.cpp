@@ -28,6 +28,9 @@ constexpr float kWindowDepth = 0.12f, kThickWallWindowDepth = 0.24f, kDoorDepth 
 
 enum class Fill : uint8_t { Window, Shuttered, Tall, Door, Shop, Gate, Loading };
 
+/// How much is made of what is in a wall: backs are plain, timber frames have rails for lintels.
+enum class Finish : uint8_t { Plain, Framed, Dressed };
+
 /// Something in a storey's wall; heights from the storey's floor.
 struct Feature {
   Fill fill = Fill::Window;
@@ -116,7 +119,8 @@ class HouseMaker {
   WallFrame right() const { return {{0.5f * plan_.width, 0, 0}, {0, 1, 0}}; }
   WallFrame left() const { return {{-0.5f * plan_.width, 0, 0}, {0, -1, 0}}; }
 
-  void addFeature(const WallFrame& frame, const Feature& feature, const WallHole& hole, bool rich) {
+  void addFeature(const WallFrame& frame, const Feature& feature, const WallHole& hole, Finish finish) {
+    const bool rich = finish != Finish::Plain;
     switch (feature.fill) {
       case Fill::Window:
       case Fill::Tall:
@@ -125,6 +129,8 @@ class HouseMaker {
           builder_.beginExternalGeometry(0.09f);
           addBar(builder_, frame, {hole.u0 - 0.1f, hole.u1 + 0.1f, hole.v0 - 0.1f, hole.v0}, 0.09f, plan_.frame,
                  kAbove | kBelow);
+        }
+        if (finish == Finish::Dressed) {
           builder_.beginExternalGeometry(0.05f);
           addBar(builder_, frame, {hole.u0 - 0.1f, hole.u1 + 0.1f, hole.v1, hole.v1 + 0.12f}, 0.05f, plan_.frame,
                  kBelow);
@@ -143,7 +149,7 @@ class HouseMaker {
         addBar(builder_, frame, {hole.u0 - leaf, hole.u0, hole.v0, hole.v1}, 0.05f, kShutter, kLeft | kAbove);
         addBar(builder_, frame, {hole.u1, hole.u1 + leaf, hole.v0, hole.v1}, 0.05f, kShutter, kRight | kAbove);
         builder_.beginExternalGeometry(0.08f);
-        addBar(builder_, frame, {hole.u0, hole.u1, hole.v0 - 0.08f, hole.v0}, 0.08f, plan_.frame, kAll);
+        addBar(builder_, frame, {hole.u0, hole.u1, hole.v0 - 0.08f, hole.v0}, 0.08f, plan_.frame, kAbove | kBelow);
         break;
       }
       case Fill::Door:
@@ -178,7 +184,8 @@ class HouseMaker {
     const float half = 0.5f * width;
     builder_.beginExternalGeometry(bressumer ? 0.12f : 0.06f);
     const float sole = bressumer ? 0.28f : kRail;
-    addBar(builder_, frame, {-half, half, floor, floor + sole}, bressumer ? 0.12f : 0.06f, kOak, kAll);
+    addBar(builder_, frame, {-half, half, floor, floor + sole}, bressumer ? 0.12f : 0.06f, kOak,
+           bressumer ? kAbove | kBelow : kAbove);
     builder_.beginExternalGeometry(0.06f);
     addBar(builder_, frame, {-half, half, top - kRail, top}, 0.06f, kOak, kBelow);
 
@@ -238,27 +245,28 @@ class HouseMaker {
     const bool ground = bottom < floor;
     builder_.beginLevel(bottom, top);
 
-    const auto wall = [&](const WallFrame& frame, float u0, float u1, const std::vector<Feature>& features, bool rich) {
+    const auto wall = [&](const WallFrame& frame, float u0, float u1, const std::vector<Feature>& features,
+                          Finish finish) {
       std::vector<WallHole> holes;
       for (const Feature& f : features) holes.push_back(f.hole(floor));
       const WallBand band{bottom, top, u0, u1, u0, u1};
       builder_.beginPlane(PlaneKind::Wall, s.wall, frame.normal());
       addWall(builder_, frame, {&band, 1}, holes, s.wall);
-      for (size_t i = 0; i < features.size(); ++i) addFeature(frame, features[i], holes[i], rich);
+      for (size_t i = 0; i < features.size(); ++i) addFeature(frame, features[i], holes[i], finish);
       const vec3 a = frame.at(u0, 0), b = frame.at(u1, 0);
       builder_.addOccluder({vec2(a), vec2(b), bottom, top});
     };
 
     const WallFrame f = front(reach);
-    wall(f, -0.5f * w, 0.5f * w, s.front, true);
+    wall(f, -0.5f * w, 0.5f * w, s.front, s.timber ? Finish::Framed : Finish::Dressed);
     if (s.timber) addTimber(f, w, floor, top, s.front, s.jetty > 0);
     if (ground) addPlinth(f, w, s.front);
     if (ground && plan_.awning != kPaintCount) addAwning(f, s);
     if (plan_.quoins != kPaintCount) addQuoins(f, w, bottom, top);
 
-    wall(back(), -0.5f * w, 0.5f * w, s.back, false);
-    wall(right(), -0.5f * d - reach, 0.5f * d, s.side, false);
-    wall(left(), -0.5f * d, 0.5f * d + reach, s.side, false);
+    wall(back(), -0.5f * w, 0.5f * w, s.back, Finish::Plain);
+    wall(right(), -0.5f * d - reach, 0.5f * d, s.side, Finish::Plain);
+    wall(left(), -0.5f * d, 0.5f * d + reach, s.side, Finish::Plain);
 
     if (s.jetty > 0) {
       builder_.beginPlane(PlaneKind::Floor, kPlanks, {0, 0, -1});
@@ -314,7 +322,11 @@ class HouseMaker {
     }
     builder_.beginPlane(PlaneKind::Gable, plan_.gableWall, frame.normal());
     addWall(builder_, frame, bands, holes, plan_.gableWall);
-    for (size_t i = 0; i < features.size(); ++i) addFeature(frame, features[i], holes[i], rich);
+    for (size_t i = 0; i < features.size(); ++i)
+      addFeature(frame, features[i], holes[i],
+                 !rich               ? Finish::Plain
+                 : plan_.gableTimber ? Finish::Framed
+                                     : Finish::Dressed);
     if (rich && plan_.gableTimber) {
       constexpr float kPost = 0.16f;
       builder_.beginExternalGeometry(0.06f);

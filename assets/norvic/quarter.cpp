@@ -392,7 +392,7 @@ class QuarterPlanner {
     const double room = edgeRoom(from);
     if (room < 6) return;
     const double fraction = std::clamp(1 - room / brief_.radius, 0.0, 1.0);  // 0 at the market, 1 at the edge
-    const double gap = ease * glm::mix(42.0, 64.0, fraction), clear = glm::mix(29.0, 42.0, fraction);
+    const double gap = ease * glm::mix(44.0, 70.0, fraction), clear = glm::mix(31.0, 47.0, fraction);
     bool crowded = false;
     net_.nodesWithin(from, gap, [&](uint32_t n) { crowded |= net_.nodes()[n].edges.size() > 2; });
     if (crowded) return;
@@ -675,7 +675,7 @@ class QuarterPlanner {
         const double away = glm::length(here - brief_.centre) / brief_.radius;
         const bool outside = edgeRoom(here) < 0;
         const double chance = outside                           ? 0.5 * std::max(0.0, 1 - (away - 1) / 0.55)
-                              : street.kind == StreetKind::Lane ? glm::mix(0.96, 0.62, std::min(1.0, away))
+                              : street.kind == StreetKind::Lane ? glm::mix(0.94, 0.55, std::min(1.0, away))
                                                                 : glm::mix(0.99, 0.80, std::min(1.0, away));
         if (random_.uniform() > chance) {
           s += random_.uniform(3, outside ? 22 : 9);
