@@ -112,29 +112,21 @@ class InstanceCuller {
   uint64_t tests_ = 0;
 };
 
-/// Number of tiles, and so of boxes, in a level of the tree; and where it begins.
-constexpr size_t levelSize(uint32_t level) {
-  return size_t{1} << (2 * level);
-}
-constexpr size_t levelStart(uint32_t level) {
-  return (levelSize(level) - 1) / 3;
-}
-
 struct TileCuller {
   const TileTree& tree;
   const BoxTest& test;
   std::vector<uint32_t>& drawn;
   uint64_t tests = 0;
 
-  void visit(uint32_t level, uint32_t index, uint32_t mask) {
-    const city::Aabbf& box = tree.bounds[levelStart(level) + index];
+  void visit(uint32_t node, uint32_t mask) {
+    const city::Aabbf& box = tree.bounds[node];
     if (box.empty()) return;
     if (mask != 0) {
       ++tests;
       if (classify(test, box, mask) == Containment::Outside) return;
     }
-    if (level + 1 == tree.levels) return drawn.push_back(index);
-    for (uint32_t quadrant = 0; quadrant < 4; ++quadrant) visit(level + 1, 4 * index + quadrant, mask);
+    if (node >= tree.firstLeaf) return drawn.push_back(node - tree.firstLeaf);
+    for (uint32_t quadrant = 0; quadrant < 4; ++quadrant) visit(4 * node + 1 + quadrant, mask);
   }
 };
 
@@ -148,20 +140,18 @@ TileTree buildTileTree(std::span<const city::Tile> tiles) {
   TileTree tree;
   if (tiles.empty()) return tree;
   assert(std::has_single_bit(tiles.size()) && std::countr_zero(tiles.size()) % 2 == 0 && "tiles are not a power of 4");
-  tree.levels = static_cast<uint32_t>(std::countr_zero(tiles.size())) / 2 + 1;
-  tree.bounds.resize(levelStart(tree.levels));
-  const size_t leaves = levelStart(tree.levels - 1);
-  for (size_t t = 0; t < tiles.size(); ++t) tree.bounds[leaves + t] = tiles[t].bounds;
-  for (uint32_t level = tree.levels - 1; level-- > 0;)
-    for (size_t i = 0; i < levelSize(level); ++i)
-      for (size_t quadrant = 0; quadrant < 4; ++quadrant)
-        tree.bounds[levelStart(level) + i].extend(tree.bounds[levelStart(level + 1) + 4 * i + quadrant]);
+  const size_t firstLeaf = (tiles.size() - 1) / 3;
+  tree.firstLeaf = static_cast<uint32_t>(firstLeaf);
+  tree.bounds.resize(firstLeaf);
+  for (const city::Tile& tile : tiles) tree.bounds.push_back(tile.bounds);
+  for (size_t node = firstLeaf; node-- > 0;)
+    for (size_t quadrant = 0; quadrant < 4; ++quadrant) tree.bounds[node].extend(tree.bounds[4 * node + 1 + quadrant]);
   return tree;
 }
 
 uint64_t cullTiles(const TileTree& tree, const BoxTest& test, std::vector<uint32_t>& drawn) {
   TileCuller culler{tree, test, drawn};
-  if (!tree.bounds.empty()) culler.visit(0, 0, test.allPlanes);
+  if (!tree.bounds.empty()) culler.visit(0, test.allPlanes);
   return culler.tests;
 }
 

@@ -24,10 +24,10 @@ namespace vicus::culling {
 uint64_t cullInstances(const city::InstanceSet& set, const BoxTest& test, city::SetPlan& out);
 
 /// The bounds of 4ᵏ tiles in Morton order, and above them those of each four, up to one box of all: level by level, the
-/// root first. Tiles without anything on them have empty bounds.
+/// root first, so that the children of node i are 4i + 1 to 4i + 4. Tiles without anything on them have empty bounds.
 struct TileTree {
   std::vector<city::Aabbf> bounds;
-  uint32_t levels = 0;  ///< k + 1
+  uint32_t firstLeaf = 0;  ///< where the tiles' own bounds begin
 };
 
 /// `tiles.size()` must be a power of four (as that of a TileGrid is) or zero.
