@@ -134,8 +134,8 @@ void addPyramidRoof(BuildingBuilder& builder, const Extrusion& e, const Polygon&
 
 /// A level surface at the eaves; texture along the longest edge.
 bool addFlatRoof(BuildingBuilder& builder, const Extrusion& e, const Polygon& polygon) {
-  const std::vector<uint32_t> triangles = triangulate(polygon);
-  if (triangles.empty()) return false;
+  const Triangulation cut = triangulate(polygon);
+  if (cut.triangles.empty()) return false;
   const Ring& outer = polygon.rings[0];
   glm::dvec2 u(1, 0);
   double longest = 0;
@@ -145,14 +145,13 @@ bool addFlatRoof(BuildingBuilder& builder, const Extrusion& e, const Polygon& po
   }
   std::vector<glm::vec3> positions;
   std::vector<glm::vec2> uvs;
-  for (const Ring& ring : polygon.rings)
-    for (const glm::dvec2& p : ring) {
-      positions.push_back(at(p, e.height));
-      uvs.push_back(uv(glm::dot(p, u), u.x * p.y - u.y * p.x));
-    }
+  for (const glm::dvec2& p : cut.points) {
+    positions.push_back(at(p, e.height));
+    uvs.push_back(uv(glm::dot(p, u), u.x * p.y - u.y * p.x));
+  }
   builder.beginLevel(static_cast<float>(e.height), static_cast<float>(e.height));
   builder.beginPlane(PlaneKind::Roof, id(e.style.roof), {0, 0, 1});
-  builder.addTriangles(positions, uvs, triangles, {0, 0, 1}, id(e.style.roof));
+  builder.addTriangles(positions, uvs, cut.triangles, {0, 0, 1}, id(e.style.roof));
   return true;
 }
 

@@ -354,10 +354,20 @@ void makeTerrain(Assembly& a, const std::vector<Source>& sources, const std::vec
 
   std::vector<glm::dvec3> known;
   std::string groundFile;
+  size_t buildings = 0;
+  const auto know = [&](std::span<const glm::dvec2> outline, double ground, const std::string& file) {
+    ++buildings;
+    if (groundFile.empty()) groundFile = file;
+    for (size_t i = 0; i < outline.size(); ++i) {
+      const glm::dvec2 from = outline[i], to = outline[(i + 1) % outline.size()];
+      const int pieces = std::clamp(static_cast<int>(std::ceil(glm::length(to - from) / kMadeUpSpacing)), 1, 1000);
+      for (int k = 0; k < pieces; ++k) known.emplace_back(glm::mix(from, to, static_cast<double>(k) / pieces), ground);
+    }
+  };
   for (const Outline& o : outlines)
     if (std::isfinite(o.ground)) {
-      known.emplace_back(middleOf(o), o.ground);
-      if (groundFile.empty()) groundFile = *o.file;
+      know(o.parts[0].polygon.rings[0], o.ground, *o.file);
+      for (size_t p = 1; p < o.parts.size(); ++p) know(o.parts[p].polygon.rings[0], o.ground, *o.file), --buildings;
     }
   for (const Source& s : sources)
     for (const SurfaceBuilding& b : s.buildings) {
@@ -366,18 +376,19 @@ void makeTerrain(Assembly& a, const std::vector<Source>& sources, const std::vec
         if (std::isfinite(p.x + p.y + p.z)) around.extend(p - a.city.origin);
       if (around.empty()) continue;
       const double ground = std::isfinite(b.ground) ? b.ground - a.city.origin.z : around.min.z;
-      known.emplace_back(glm::dvec2(around.centre()), ground);
-      if (groundFile.empty()) groundFile = s.file;
+      const glm::dvec2 low(around.min), high(around.max);
+      const Ring corners{low, {high.x, low.y}, high, {low.x, high.y}};
+      know(corners, ground, s.file);
     }
   constexpr size_t kFewest = 3;  // fewer say nothing of a terrain's form
-  if (known.size() < kFewest) return;
+  if (buildings < kFewest) return;
   city::Aabb extent = box;
   extent.extend(box.min - kMadeUpMargin);
   extent.extend(box.max + kMadeUpMargin);
   a.city.terrain = fieldThrough(known, extent, kMadeUpSpacing);
   a.diagnostics.warn(groundFile, "",
                      "no elevation given: terrain interpolated from the ground heights of " +
-                         counted(known.size(), "building", "buildings"));
+                         counted(buildings, "building", "buildings"));
 }
 
 /// The differences between what a source says of the ground and the terrain that its buildings stand on.

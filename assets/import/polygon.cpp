@@ -5,6 +5,7 @@
 #include <geos_c.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <unordered_map>
@@ -158,6 +159,56 @@ struct PointHash {
     return std::hash<double>()(p.x) * 0x9e3779b97f4a7c15ULL ^ std::hash<double>()(p.y);
   }
 };
+
+/// Appends the triangles of a valid polygon. GEOS 3.11 misjudges some holes that touch their outline, and then covers
+/// too much or too little: such polygons are halved across their longer side until it succeeds.
+bool cutIntoTriangles(const Geos& geos, const Polygon& polygon, int depth,
+                      std::vector<std::array<glm::dvec2, 3>>& out) {
+  constexpr int kDeepest = 8;
+  const size_t before = out.size();
+  const auto geometry = geos.own(geos.polygon(polygon));
+  if (!geometry) return false;
+  if (const auto triangles = geos.own(GEOSConstrainedDelaunayTriangulation_r(geos.handle(), geometry.get()))) {
+    double covered = 0;
+    bool good = true;
+    const int count = GEOSGetNumGeometries_r(geos.handle(), triangles.get());
+    for (int t = 0; good && t < count; ++t) {
+      const Ring corners =
+          geos.ring(GEOSGetExteriorRing_r(geos.handle(), GEOSGetGeometryN_r(geos.handle(), triangles.get(), t)));
+      good = corners.size() == 3;
+      if (!good) break;
+      const double twice = orientation(corners[0], corners[1], corners[2]);
+      covered += std::abs(twice) / 2;
+      if (twice > 0) out.push_back({corners[0], corners[1], corners[2]});
+      if (twice < 0) out.push_back({corners[0], corners[2], corners[1]});
+    }
+    const double whole = area(polygon);
+    if (good && std::abs(covered - whole) <= 1e-6 * whole + 1e-6) return true;
+  }
+  out.resize(before);
+  if (depth == kDeepest) return false;
+
+  glm::dvec2 low(INFINITY), high(-INFINITY);
+  for (const glm::dvec2& p : polygon.rings[0]) low = glm::min(low, p), high = glm::max(high, p);
+  // Through the middle of a hole where there is one, so that it becomes part of the outline.
+  const glm::dvec2 middle = polygon.rings.size() > 1 ? centroid({{polygon.rings[1]}}) : (low + high) / 2.0;
+  const bool alongX = high.x - low.x >= high.y - low.y;
+  for (const bool first : {true, false}) {
+    glm::dvec2 from = low - 1.0, to = high + 1.0;
+    (first ? to : from)[alongX ? 0 : 1] = middle[alongX ? 0 : 1];
+    const auto half = geos.own(geos.polygon({{{from, {to.x, from.y}, to, {from.x, to.y}}}}));
+    if (!half) return false;
+    const auto piece = geos.own(GEOSIntersection_r(geos.handle(), geometry.get(), half.get()));
+    if (!piece) return false;
+    std::vector<Polygon> parts;
+    geos.collect(piece.get(), parts);
+    for (Polygon& part : parts) {
+      for (size_t r = 0; r < part.rings.size(); ++r) wind(part.rings[r], r == 0);
+      if (!cutIntoTriangles(geos, part, depth + 1, out)) return false;
+    }
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -324,47 +375,27 @@ std::vector<uint32_t> cornersOf(std::span<const glm::dvec2> ring, std::span<cons
   return kept;
 }
 
-std::vector<uint32_t> triangulate(const Polygon& polygon) {
-  std::vector<uint32_t> out;
+Triangulation triangulate(const Polygon& polygon) {
+  Triangulation out;
   if (polygon.rings.empty()) return out;
+  for (const Ring& ring : polygon.rings) out.points.insert(out.points.end(), ring.begin(), ring.end());
   if (polygon.rings.size() == 1 && isConvex(polygon.rings[0])) {
     const Ring& ring = polygon.rings[0];
     for (uint32_t i = 2; i < ring.size(); ++i)
-      if (orientation(ring[0], ring[i - 1], ring[i]) > 0) out.insert(out.end(), {0, i - 1, i});
+      if (orientation(ring[0], ring[i - 1], ring[i]) > 0) out.triangles.insert(out.triangles.end(), {0, i - 1, i});
     return out;
   }
   std::unordered_map<glm::dvec2, uint32_t, PointHash> indexOf;
-  Ring points;
-  for (const Ring& ring : polygon.rings)
-    for (const glm::dvec2& p : ring) {
-      indexOf.emplace(p, static_cast<uint32_t>(points.size()));
-      points.push_back(p);
-    }
-
+  for (uint32_t i = 0; i < out.points.size(); ++i) indexOf.emplace(out.points[i], i);
   const Geos geos;
-  const auto geometry = geos.own(geos.polygon(polygon));
-  if (!geometry) return out;
-  const auto triangles = geos.own(GEOSConstrainedDelaunayTriangulation_r(geos.handle(), geometry.get()));
-  if (!triangles) return out;
-  double covered = 0;
-  const int count = GEOSGetNumGeometries_r(geos.handle(), triangles.get());
-  for (int t = 0; t < count; ++t) {
-    const Ring corners =
-        geos.ring(GEOSGetExteriorRing_r(geos.handle(), GEOSGetGeometryN_r(geos.handle(), triangles.get(), t)));
-    if (corners.size() != 3) return {};
-    uint32_t index[3];
-    for (int k = 0; k < 3; ++k) {
-      const auto found = indexOf.find(corners[static_cast<size_t>(k)]);
-      if (found == indexOf.end()) return {};
-      index[k] = found->second;
+  std::vector<std::array<glm::dvec2, 3>> triangles;
+  if (!cutIntoTriangles(geos, polygon, 0, triangles)) return out;
+  for (const auto& t : triangles)
+    for (const glm::dvec2& p : t) {
+      const auto [found, isNew] = indexOf.emplace(p, static_cast<uint32_t>(out.points.size()));
+      if (isNew) out.points.push_back(p);
+      out.triangles.push_back(found->second);
     }
-    const double a = orientation(corners[0], corners[1], corners[2]) / 2;
-    if (a < 0) std::swap(index[1], index[2]);
-    if (a != 0) out.insert(out.end(), {index[0], index[1], index[2]});
-    covered += std::abs(a);
-  }
-  const double whole = area(polygon);
-  if (std::abs(covered - whole) > 1e-6 * whole + 1e-6) return {};
   return out;
 }
 

@@ -51,8 +51,12 @@ CleanedPolygons cleanPolygon(const Polygon& raw);
 /// the ring is returned as it came. Indices into the ring, ascending.
 std::vector<uint32_t> cornersOf(std::span<const glm::dvec2> ring, std::span<const uint8_t> group, double tolerance);
 
-/// Triangles of a valid polygon: three indices for each, counter-clockwise, into its rings' points one ring after
-/// another. Constrained Delaunay (GEOS). Empty where the library fails or its triangles do not cover the polygon.
-std::vector<uint32_t> triangulate(const Polygon& polygon);
+struct Triangulation {
+  Ring points;                      ///< those of the polygon's rings, one ring after another, then any added ones
+  std::vector<uint32_t> triangles;  ///< three indices into `points` for each, counter-clockwise; empty: it failed
+};
+/// Triangles of a valid polygon: constrained Delaunay (GEOS). What that cannot do is first cut in two, which adds
+/// points. Fails where even then the triangles do not cover the polygon.
+Triangulation triangulate(const Polygon& polygon);
 
 }  // namespace vicus::assets

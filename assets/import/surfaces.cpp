@@ -209,10 +209,13 @@ Mesh meshOf(const Face& face, const Axes& axes, const std::vector<glm::dvec3>& p
     }
     polygon.rings.push_back(std::move(ring));
   }
+  const auto lifted = [&](glm::dvec2 q) { return o + axes.u * q.x + axes.v * q.y; };
   if (isPlainlyValid(polygon)) {
-    mesh.triangles = triangulate(polygon);
+    Triangulation cut = triangulate(polygon);
     for (const auto& ring : rings)
       for (const uint32_t i : ring) mesh.positions.push_back(points[i]);
+    for (size_t i = mesh.positions.size(); i < cut.points.size(); ++i) mesh.positions.push_back(lifted(cut.points[i]));
+    mesh.triangles = std::move(cut.triangles);
     if (!mesh.triangles.empty()) return mesh;
     mesh.positions.clear();
   }
@@ -228,14 +231,13 @@ Mesh meshOf(const Face& face, const Axes& axes, const std::vector<glm::dvec3>& p
   if (cleaned.repaired) ++report.repaired;
   for (const Polygon& p : cleaned.polygons) {
     const auto base = static_cast<uint32_t>(mesh.positions.size());
-    const std::vector<uint32_t> triangles = triangulate(p);
-    if (triangles.empty()) continue;
-    for (const uint32_t t : triangles) mesh.triangles.push_back(base + t);
-    for (const Ring& ring : p.rings)
-      for (const glm::dvec2& q : ring) {
-        const auto found = known.find({q.x, q.y});
-        mesh.positions.push_back(found != known.end() ? found->second : o + axes.u * q.x + axes.v * q.y);
-      }
+    const Triangulation cut = triangulate(p);
+    if (cut.triangles.empty()) continue;
+    for (const uint32_t t : cut.triangles) mesh.triangles.push_back(base + t);
+    for (const glm::dvec2& q : cut.points) {
+      const auto found = known.find({q.x, q.y});
+      mesh.positions.push_back(found != known.end() ? found->second : lifted(q));
+    }
   }
   return mesh;
 }

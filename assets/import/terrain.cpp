@@ -155,17 +155,23 @@ double spacingOf(const Tin& tin) {
 
 city::HeightField fieldThrough(std::span<const glm::dvec3> points, const city::Aabb& extent, double spacing) {
   city::HeightField field = fieldOver(extent, spacing);
-  std::vector<double> sums(field.heights.size(), 0);
-  std::vector<uint32_t> counts(field.heights.size(), 0);
+  std::vector<double> sums(field.heights.size(), 0), weights(field.heights.size(), 0);
   for (const glm::dvec3& p : points) {
     if (!std::isfinite(p.x + p.y + p.z)) continue;
-    const glm::dvec2 cell = glm::round((glm::dvec2(p) - field.origin) / field.spacing);
-    if (cell.x < 0 || cell.y < 0 || cell.x >= field.size.x || cell.y >= field.size.y) continue;
-    const size_t i = static_cast<size_t>(cell.y) * static_cast<size_t>(field.size.x) + static_cast<size_t>(cell.x);
-    sums[i] += p.z, ++counts[i];
+    const glm::dvec2 place = (glm::dvec2(p) - field.origin) / field.spacing;
+    const glm::dvec2 cell = glm::floor(place), t = place - cell;
+    for (int corner = 0; corner < 4; ++corner) {
+      const double x = cell.x + (corner & 1), y = cell.y + (corner >> 1);
+      if (x < 0 || y < 0 || x >= field.size.x || y >= field.size.y) continue;
+      // A point on the far edge of the cell still counts a little: the surface under it hangs on all four corners.
+      constexpr double kLeast = 1e-3;
+      const double w = std::max(kLeast, (corner & 1 ? t.x : 1 - t.x) * (corner >> 1 ? t.y : 1 - t.y));
+      const size_t i = static_cast<size_t>(y) * static_cast<size_t>(field.size.x) + static_cast<size_t>(x);
+      sums[i] += w * p.z, weights[i] += w;
+    }
   }
   for (size_t i = 0; i < sums.size(); ++i)
-    if (counts[i] > 0) field.heights[i] = static_cast<float>(sums[i] / counts[i]);
+    if (weights[i] > 0) field.heights[i] = static_cast<float>(sums[i] / weights[i]);
   fillByMembrane(field);
   field.updateRange();
   return field;

@@ -30,8 +30,10 @@ uint64_t rasteriseTin(const Tin& tin, city::HeightField& field);
 /// Spacing in metres that shows a TIN's own detail: a quarter of the mean edge of its triangles' plan, 0.5 to 4.
 double spacingOf(const Tin& tin);
 
-/// A field through scattered ground altitudes, points in metres from the city's origin: each sample takes the mean of
-/// the points within half a spacing of it, the rest follow by `fillByMembrane`. All NaN where there are no points.
+/// A field through scattered ground altitudes, points in metres from the city's origin: the samples at the corners of
+/// each point's cell take the mean of the points near them (weighted bilinearly), the rest follow by `fillByMembrane`.
+/// Give a building as points along its outline: a membrane pinned at single points has cusps there. All NaN where there
+/// are no points.
 city::HeightField fieldThrough(std::span<const glm::dvec3> points, const city::Aabb& extent, double spacing);
 
 /// The ground along a closed outline, looked at every half spacing.
