@@ -62,8 +62,10 @@ city::StreetGraph joinStreets(std::span<const QuarterPlan> quarters, const Lands
       uint32_t before = nodeOf[line.from];
       for (size_t i = 1; i < points.size(); ++i) {
         const uint32_t node = i + 1 < points.size() ? addNode(points[i]) : nodeOf[line.to];
-        if (bridge && i + 1 < points.size())
-          graph.nodes[node].position.z = deckHeight(land, land.riverDistance(points[i]));
+        // A bridge's nodes stand on its deck, which ends at the ground's height.
+        if (bridge)
+          for (const uint32_t n : {before, node})
+            graph.nodes[n].position.z = deckHeight(land, land.riverDistance(dvec2(graph.nodes[n].position)));
         if (node == before) continue;
         graph.edges.push_back(
             {before, node, static_cast<float>(line.style.width), line.style.kind, q.names[line.style.name]});
