@@ -85,10 +85,14 @@ struct Renderer::Impl {
     viewer->renderingTraversals();
   }
 
-  /// Our own GL between frames may have changed what OpenSceneGraph believes to be set.
+  /// Tells OpenSceneGraph what our own GL between frames has set. (`dirtyAllModes` would not do: it takes each mode for
+  /// the opposite of what it was, so that one which is off, like the depth test between frames, is never switched on
+  /// again.)
   void forgetState() {
-    window->getState()->dirtyAllModes();
-    window->getState()->dirtyAllAttributes();
+    osg::State& state = *window->getState();
+    for (const GLenum off : {GL_SCISSOR_TEST, GL_DITHER, GL_BLEND}) state.haveAppliedMode(off, GL_FALSE);
+    state.haveAppliedMode(GL_MULTISAMPLE, static_cast<osg::StateAttribute::GLModeValue>(glIsEnabled(GL_MULTISAMPLE)));
+    state.dirtyAllAttributes();
   }
 
   /// Binds and clears: colour to `background`'s bits (for the picture, the sky draws over all of it), depth to far.
