@@ -72,6 +72,7 @@ const Recipe& recipeOf(std::string_view name) {
 
 std::vector<std::string> builtinMaterialNames() {
   std::vector<std::string> names;
+  names.reserve(kRecipes.size());
   for (const Recipe& r : kRecipes) names.emplace_back(r.name);
   return names;
 }

@@ -24,7 +24,7 @@ double linearFromSrgb(double s) {
 
 uint8_t srgbFromLinear(double linear) {
   const double v = std::clamp(linear, 0.0, 1.0);
-  return static_cast<uint8_t>((v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055) * 255 + 0.5);
+  return static_cast<uint8_t>(std::lround((v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055) * 255));
 }
 
 const std::array<float, 256>& linearOfByte() {
@@ -82,7 +82,7 @@ std::array<uint8_t, 4> texelOf(const float* in, const Layout& layout) {
   const double scale = layout.premultiplied && alpha > 0 ? 1 / alpha : 1;
   std::array<uint8_t, 4> out{};
   for (size_t c = 0; c < 3; ++c) out[c] = srgbFromLinear(finite(in[layout.colour[c]]) * scale);
-  out[3] = static_cast<uint8_t>(alpha * 255 + 0.5);
+  out[3] = static_cast<uint8_t>(std::lround(alpha * 255));
   return out;
 }
 
@@ -128,7 +128,7 @@ bool readReduced(OIIO::ImageInput& file, const OIIO::ImageSpec& spec, int factor
       if (y % factor != factor - 1 && y + 1 != spec.height) continue;
       for (Sum& sum : sums) {
         for (size_t c = 0; c < 3; ++c) *out++ = srgbFromLinear(sum.colour[c] / sum.weight);
-        *out++ = static_cast<uint8_t>(sum.alpha / sum.count + 0.5F);
+        *out++ = static_cast<uint8_t>(std::lround(sum.alpha / sum.count));
         sum = {};
       }
     }

@@ -118,7 +118,7 @@ const std::array<uint8_t, 4097>& encodeTable() {
     for (size_t i = 0; i < t.size(); ++i) {
       const double v = static_cast<double>(i) / 4096.0;
       const double s = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
-      t[i] = static_cast<uint8_t>(s * 255.0 + 0.5);
+      t[i] = static_cast<uint8_t>(std::lround(s * 255.0));
     }
     return t;
   }();
@@ -241,7 +241,7 @@ Cells voronoi(Size size, glm::ivec2 cells, float jitter, float wobble, uint32_t 
     uint32_t id;
   };
   std::vector<Point> points;
-  points.reserve(static_cast<size_t>(stride * (cells.y + 4)));
+  points.reserve(static_cast<size_t>(stride) * static_cast<size_t>(cells.y + 4));
   for (int j = -2; j < cells.y + 2; ++j)
     for (int i = -2; i < cells.x + 2; ++i) {
       const auto id = static_cast<uint32_t>(wrapped(j, cells.y) * cells.x + wrapped(i, cells.x));

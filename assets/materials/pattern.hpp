@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cassert>
+#include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
@@ -129,7 +130,7 @@ struct Rect {
 /// `texel(x, y, under, edge) → Texel`, where `under` is what was there and `edge` the texels to the rectangle's border.
 template <class F>
 void repaint(Surface& surface, const Rect& rect, F&& texel) {
-  const auto clampTo = [](float v, int hi) { return glm::clamp(static_cast<int>(v + 0.5F), 0, hi); };
+  const auto clampTo = [](float v, int hi) { return glm::clamp(static_cast<int>(std::lround(v)), 0, hi); };
   const int x0 = clampTo(rect.left, surface.size.width), x1 = clampTo(rect.right, surface.size.width);
   const int y0 = clampTo(rect.bottom, surface.size.height), y1 = clampTo(rect.top, surface.size.height);
   for (int y = y0; y < y1; ++y)

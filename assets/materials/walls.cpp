@@ -1,9 +1,19 @@
 #include <array>
+#include <cmath>
 
 #include "assets/materials/recipes.hpp"
 
 namespace vicus::assets::recipes {
 using namespace pattern;
+
+namespace {
+
+/// The whole number nearest to `count`, at least `least`.
+int atLeast(int least, float count) {
+  return glm::max(least, static_cast<int>(std::lround(count)));
+}
+
+}  // namespace
 
 glm::vec3 plasterColour() {
   return srgb(0xcbc0aa);
@@ -49,8 +59,8 @@ Image limewash() {
 
 Surface brickWall(Size size, glm::vec2 metres, bool dark, uint32_t seed) {
   // Bricks of 225 mm × 75 mm with their joints, as many as come nearest.
-  const int stretchers = glm::max(1, static_cast<int>(metres.x / 0.225F + 0.5F));
-  const int rows = 2 * glm::max(1, static_cast<int>(metres.y / 0.15F + 0.5F));
+  const int stretchers = atLeast(1, metres.x / 0.225F);
+  const int rows = 2 * atLeast(1, metres.y / 0.15F);
   const float texelsPerMetre = static_cast<float>(size.height) / metres.y;
   const float joint = 0.0045F * texelsPerMetre;  // half of it
   const std::array<glm::vec3, 6> palette =
@@ -115,8 +125,8 @@ Image rubble() {
 }
 
 Surface ashlarWall(Size size, glm::vec2 metres, uint32_t seed) {
-  const int rows = glm::max(2, static_cast<int>(metres.y / 0.32F + 0.5F));
-  const int stones = glm::max(2, static_cast<int>(metres.x / 0.62F + 0.5F));
+  const int rows = atLeast(2, metres.y / 0.32F);
+  const int stones = atLeast(2, metres.x / 0.62F);
   const float texelsPerMetre = static_cast<float>(size.height) / metres.y;
   const float joint = 0.004F * texelsPerMetre;
   const Cells bond = courses(size, ashlarCourses(size, rows, stones, 0.22F, seed), 1.2F, 0.6F, seed + 1);

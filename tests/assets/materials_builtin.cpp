@@ -160,24 +160,31 @@ TEST(MaterialsBuiltin, NoSeamStandsOut) {
     }
 }
 
-TEST(MaterialsBuiltin, TheSameTwiceAndInParallel) {
+TEST(MaterialsBuiltin, TheSameTwice) {
+  city::Diagnostics diagnostics;
+  for (const char* name : {"brick", "thatch", "leaves", "cobbles", "timber", "facade-limestone"})
+    EXPECT_EQ(materialImage(builtinMaterial(name), diagnostics).rgba, pictures().at(name).rgba) << name;
+}
+
+// These two use small pictures only: the thread sanitizer runs them.
+TEST(MaterialsBuiltin, TheSameInParallel) {
   std::vector<city::Material> materials;
-  for (const char* name : {"brick", "thatch", "leaves", "cobbles", "timber", "facade-limestone", "water"})
+  for (const char* name : {"iron", "wool", "glass", "shutter", "wool", "water"})
     materials.push_back(builtinMaterial(name));
   city::Diagnostics diagnostics;
   const std::vector<Image> images = materialImages(materials, diagnostics);
   ASSERT_EQ(images.size(), materials.size());
   for (size_t i = 0; i < images.size(); ++i)
-    EXPECT_EQ(images[i].rgba, pictures().at(materials[i].name).rgba) << materials[i].name;
+    EXPECT_EQ(images[i].rgba, materialImage(materials[i], diagnostics).rgba) << materials[i].name;
 }
 
 TEST(MaterialsBuiltin, ParallelDiagnosticsComeInOrder) {
-  std::vector<city::Material> materials(20);
-  for (size_t i = 0; i < materials.size(); ++i) materials[i].source = "no-such-" + std::to_string(i) + ".png";
+  std::vector<city::Material> materials(8);
+  for (size_t i = 0; i < materials.size(); ++i) materials[i].source = "builtin:no-such-" + std::to_string(i);
   city::Diagnostics diagnostics;
-  EXPECT_EQ(materialImages(materials, diagnostics).size(), 20U);
-  ASSERT_EQ(diagnostics.messages.size(), 20U);
-  for (size_t i = 0; i < 20; ++i) EXPECT_EQ(diagnostics.messages[i].file, materials[i].source);
+  EXPECT_EQ(materialImages(materials, diagnostics).size(), 8U);
+  ASSERT_EQ(diagnostics.messages.size(), 8U);
+  for (size_t i = 0; i < 8; ++i) EXPECT_EQ(diagnostics.messages[i].file, materials[i].source);
   EXPECT_TRUE(materialImages({}, diagnostics).empty());
 }
 

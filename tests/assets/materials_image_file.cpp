@@ -173,6 +173,14 @@ TEST_F(MaterialsImageFile, MissingFileIsNamed) {
   expectGreyAndError(image, path("not-there.png"), "cannot be read");
 }
 
+TEST_F(MaterialsImageFile, ManyMissingFilesAreNamedInOrder) {
+  std::vector<city::Material> materials(20);
+  for (size_t i = 0; i < materials.size(); ++i) materials[i].source = path("no-such-" + std::to_string(i) + ".png");
+  EXPECT_EQ(materialImages(materials, diagnostics_).size(), 20U);
+  ASSERT_EQ(diagnostics_.messages.size(), 20U);
+  for (size_t i = 0; i < 20; ++i) EXPECT_EQ(diagnostics_.messages[i].file, materials[i].source);
+}
+
 TEST_F(MaterialsImageFile, EmptyPathFolderEmptyFileAndTextAreErrors) {
   expectGreyAndError(read(""), "", "cannot be read");
   expectGreyAndError(read(folder_.string()), folder_.string(), "cannot be read");
