@@ -206,15 +206,16 @@ class HouseMaker {
              kOak, sides);
     }
     // A brace in each outer panel that has room, rising outward to its corner post.
-    builder_.beginExternalGeometry(0.03f);
     if (apart.size() < 3) return;
-    const float foot = floor + sole, head = top - kRail;
-    const float leftGap = apart[1] - apart[0], rightGap = apart[apart.size() - 1] - apart[apart.size() - 2];
-    if (leftGap > 0.6f && leftGap < 2.4f)
-      addBrace(builder_, frame, {apart[1] - 0.05f, foot}, {apart[0] + 0.05f, head - 0.3f}, 0.13f, 0.03f, kOak);
-    if (rightGap > 0.6f && rightGap < 2.4f)
-      addBrace(builder_, frame, {apart[apart.size() - 2] + 0.05f, foot}, {apart.back() - 0.05f, head - 0.3f}, 0.13f,
-               0.03f, kOak);
+    const float foot = floor + sole, head = top - kRail - 0.3f;
+    const auto hasRoom = [](float gap) { return gap > 0.6f && gap < 2.4f; };
+    const bool left = hasRoom(apart[1] - apart[0]), right = hasRoom(apart.back() - apart[apart.size() - 2]);
+    if (!left && !right) return;
+    builder_.beginExternalGeometry(0.03f);
+    if (left) addBrace(builder_, frame, {apart[1] - 0.05f, foot}, {apart[0] + 0.05f, head}, 0.13f, 0.03f, kOak);
+    if (right)
+      addBrace(builder_, frame, {apart[apart.size() - 2] + 0.05f, foot}, {apart.back() - 0.05f, head}, 0.13f, 0.03f,
+               kOak);
   }
 
   /// A low strip of stone along the foot of a wall, between its doors.

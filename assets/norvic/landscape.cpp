@@ -91,7 +91,10 @@ double Landscape::height(glm::dvec2 p) const {
   double h = natural(p);
   for (const LevelGround& g : level_) {
     const double d = glm::length(p - g.centre);
-    if (d < g.radius + g.blend) h += (g.height - h) * (1 - smooth(g.radius, g.radius + g.blend, d));
+    if (d >= g.radius + g.blend) continue;
+    // Not over the river and its banks.
+    const double share = smooth(dryDistance() + 3, dryDistance() + 40, riverDistance(p));
+    h += (g.height - h) * share * (1 - smooth(g.radius, g.radius + g.blend, d));
   }
   if (moundRise_ > 0) {
     const double d = glm::length(p - moundCentre_);

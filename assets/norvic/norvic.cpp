@@ -28,10 +28,11 @@ constexpr double kTownSide = 2048;      // metres
 constexpr double kTownSpacing = 5.12;   // metres between heights
 constexpr int kMostSamples = 2049;      // heights to a side
 constexpr double kTownRadius = 640;     // metres
+constexpr double kTownGround = 745;     // metres: with the ground before its walls
 constexpr double kQuarterRadius = 285;  // metres
 constexpr double kLattice = 690;        // metres between quarters
 constexpr uint32_t kMostFieldTrees = 150000;
-constexpr int kMostCoverTexels = 8192;  // to a side
+constexpr int kMostCoverTexels = 4096;  // to a side: what a ground texture can hold
 
 /// All that is decided before any quarter is laid out.
 struct Layout {
@@ -47,7 +48,8 @@ double spacingFor(double side) {
 /// The town itself, without its roads out.
 QuarterBrief townBrief(const Landscape& land, double radius, uint32_t seed) {
   QuarterBrief b;
-  b.radius = b.weight = radius;
+  b.radius = radius;
+  b.weight = kTownGround / kTownRadius * radius;
   b.centre = {0, land.riverAt(0) - std::max(0.44 * radius, land.dryDistance() + 85)};
   b.heading = 0.09;
   b.market = glm::mix(dvec2(44, 28), dvec2(92, 52), std::clamp((radius - 150) / 450, 0.0, 1.0));
@@ -92,6 +94,24 @@ Layout loneTown(double radius, uint32_t seed) {
   return out;
 }
 
+/// Tracks from the town into its fields, in the directions where no quarter's road leads.
+void addTracks(QuarterBrief& b, const Landscape& land, uint32_t key) {
+  constexpr int kDirections = 8;
+  const std::vector<Exit> roads = b.exits;
+  for (int i = 0; i < kDirections; ++i) {
+    const double angle = kTau * (i + 0.25) / kDirections;
+    const dvec2 d(std::cos(angle), std::sin(angle));
+    const bool led = std::any_of(roads.begin(), roads.end(), [&](const Exit& e) {
+      return glm::dot(glm::normalize(e.place - b.centre), d) > std::cos(0.62 * kTau / kDirections);
+    });
+    if (led) continue;
+    const dvec2 place = b.centre + d * (b.weight + 30);
+    const dvec2 room = glm::min(place - b.min, b.max - place);
+    if (std::min(room.x, room.y) < 15 || land.riverDistance(place) < land.dryDistance() + 40) continue;
+    b.exits.push_back({place, key++});
+  }
+}
+
 /// The walled town and `count` market towns about it.
 Layout manyQuarters(uint32_t count, uint32_t seed) {
   Layout out;
@@ -112,7 +132,7 @@ Layout manyQuarters(uint32_t count, uint32_t seed) {
       const double jitter = 0.13 * kLattice;
       const dvec2 p = kLattice * dvec2(column + 0.5 * (row & 1), row * 0.8660254) +
                       dvec2(random.uniform(-jitter, jitter), random.uniform(-jitter, jitter));
-      if (glm::length(p - town.centre) < kTownRadius + 0.72 * kLattice) continue;
+      if (glm::length(p - town.centre) < kTownGround + kQuarterRadius + 60) continue;
       // Room for a market between the river and the hills.
       if (std::abs(p.y - sketch.riverAt(p.x)) < 250) continue;
       places.push_back({p, std::max(std::abs(p.x), std::abs(p.y))});
@@ -120,7 +140,7 @@ Layout manyQuarters(uint32_t count, uint32_t seed) {
   std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.order < b.order; });
   places.resize(std::min<size_t>(places.size(), count));
   double half = 0.5 * kTownSide;
-  for (const Place& p : places) half = std::max(half, p.order + 400);
+  for (const Place& p : places) half = std::max(half, p.order + 340);
   out.side = 2 * std::ceil(half / 64) * 64;
 
   out.quarters.push_back(town);
@@ -145,8 +165,8 @@ Layout manyQuarters(uint32_t count, uint32_t seed) {
   uint32_t key = 0;
   for (uint32_t i = 0; i < out.quarters.size(); ++i) {
     QuarterBrief& a = out.quarters[i];
-    const double range = 1.75 * kLattice + (i == 0 ? kTownRadius : 0);
-    const double ground = i == 0 ? kTownRadius + 1.1 * kLattice : 0.85 * kLattice;
+    const double range = 1.75 * kLattice + (i == 0 ? kTownGround : 0);
+    const double ground = i == 0 ? kTownGround + 0.6 * kLattice : 0.85 * kLattice;
     a.min = glm::max(a.centre - ground, dvec2(-0.5 * out.side));
     a.max = glm::min(a.centre + ground, dvec2(0.5 * out.side));
     std::vector<uint32_t> near;
@@ -162,7 +182,7 @@ Layout manyQuarters(uint32_t count, uint32_t seed) {
       a.neighbours.push_back({b.centre, b.weight});
       if (i == 0) b.neighbours.push_back({a.centre, a.weight});
       if (i > j) continue;
-      const double road = i == 0 ? kTownRadius + 0.95 * kLattice : 1.3 * kLattice;
+      const double road = i == 0 ? kTownGround + 0.8 * kLattice : 1.3 * kLattice;
       if (apart > road) continue;
       const double fraction = 0.5 * (1 + (a.weight - b.weight) / apart);
       const dvec2 place = glm::mix(a.centre, b.centre, fraction);
@@ -176,6 +196,7 @@ Layout manyQuarters(uint32_t count, uint32_t seed) {
       ++key;
     }
   }
+  addTracks(out.quarters.front(), land, key);
   const double places_ = static_cast<double>(out.side) * out.side / 225 * 0.25;
   for (QuarterBrief& b : out.quarters) b.trees = std::min(1.0, kMostFieldTrees / places_);
   return out;
@@ -331,8 +352,8 @@ City generateNorvic(const NorvicOptions& options, const Progress& progress) {
     return assemble(layout, land, std::move(houses), std::move(plans), progress);
   }
   // Too many for one town: quarters about it, a few more each time they do not suffice.
-  constexpr double kHousesOfTown = 2400, kHousesOfQuarter = 330;
-  double count = std::max(6.0, std::ceil((static_cast<double>(wanted) - kHousesOfTown) / kHousesOfQuarter));
+  constexpr double kHousesOfTown = 3500, kHousesOfQuarter = 620;
+  double count = std::max(5.0, std::ceil((static_cast<double>(wanted) - kHousesOfTown) / kHousesOfQuarter));
   for (;; count = std::ceil(count * 1.15)) {
     const Layout layout = manyQuarters(static_cast<uint32_t>(count), options.seed);
     const Landscape land = landOf(layout, options.seed);

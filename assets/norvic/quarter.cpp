@@ -97,8 +97,9 @@ class QuarterPlanner {
     return brief_.castle && glm::length(p - design_.castle) < kMoundFoot + 16 + margin;
   }
 
+  /// `margin` is kept from water and from what is reserved; a road between quarters passes over its ground's edge.
   bool streetMayPass(dvec2 p, double margin) const {
-    return inside(p) > 10 && dry(p, 5 + margin) && !reserved(p, margin);
+    return inside(p) > 3 && dry(p, 5 + margin) && !reserved(p, margin);
   }
 
   // --- streets
@@ -657,7 +658,16 @@ class QuarterPlanner {
       const dvec2 c = corners[i], m = 0.5 * (corners[i] + corners[(i + 1) % 4]);
       if (inside(c) < 3 || !dry(c, 1) || !dry(m, 1)) return false;
     }
-    return !occupied_.anyOverlap(whole, 0.01) && !streets_.anyTouches(ground, 1e-6) && !walls_.anyTouches(whole);
+    return !occupied_.anyOverlap(whole, 0.01) && !streets_.anyTouches(ground, 1e-6) && !walls_.anyTouches(whole) &&
+           groundIsGentle(corners);
+  }
+
+  /// The ground under a house, front left corner first, may fall or rise no more than its foundation takes up.
+  bool groundIsGentle(const std::array<dvec2, 4>& corners) const {
+    double height[4];
+    for (size_t i = 0; i < 4; ++i) height[i] = land_.height(corners[i]);
+    const double door = std::max(height[0], height[1]);
+    return *std::min_element(height, height + 4) > door - 1.2 && *std::max_element(height, height + 4) < door + 1.2;
   }
 
   /// Sets houses along one side (the left) of a line.
