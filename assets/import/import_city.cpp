@@ -10,6 +10,7 @@
 #include "assets/import/extrude.hpp"
 #include "assets/import/finishes.hpp"
 #include "assets/import/gdal_messages.hpp"
+#include "assets/import/ground_cover.hpp"
 #include "assets/import/parallel.hpp"
 #include "assets/import/projection.hpp"
 #include "assets/import/surfaces.hpp"
@@ -621,7 +622,9 @@ std::optional<city::City> assembleCity(std::vector<Source> sources, std::span<co
   report(options, "tiles", 0);
   keepUsedFinishes(a.city);
   finishCity(a.city, std::move(a.parts));
-  report(options, "tiles", 1);
+  report(options, "ground", 0);
+  a.city.groundCover = guessGroundCover(a.city);
+  report(options, "ground", 1);
   return std::move(a.city);
 }
 
