@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string_view>
 
 namespace vicus::assets {
 namespace {
@@ -34,6 +37,25 @@ const std::array<float, 256>& linearOfByte() {
     return t;
   }();
   return table;
+}
+
+/// OpenImageIO's words in one line.
+std::string oneLine(std::string words) {
+  while (!words.empty() && words.back() == '\n') words.pop_back();
+  std::replace(words.begin(), words.end(), '\n', ' ');
+  return words;
+}
+
+/// True where a JPEG lacks its end marker (FF D9) in its last 64 KiB. The library fills the rest of such a picture with
+/// grey and says nothing. Compressed data never holds the marker.
+bool jpegEndsEarly(const std::string& path) {
+  constexpr std::streamoff kTail = 64 * 1024;
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const std::streamoff size = file.tellg();
+  if (size <= 0) return false;
+  file.seekg(std::max(std::streamoff{0}, size - kTail));
+  const std::string tail((std::istreambuf_iterator<char>(file)), {});
+  return tail.find("\xff\xd9") == std::string::npos;
 }
 
 /// How a file's channels become red, green, blue and alpha.
@@ -143,7 +165,7 @@ Image readImageFile(const std::string& path, city::Diagnostics& diagnostics) {
   hints.attribute("oiio:UnassociatedAlpha", 1);
   const auto file = OIIO::ImageInput::open(path, &hints);
   if (!file) {
-    diagnostics.error(path, "", "the picture cannot be read; grey is shown: " + OIIO::geterror());
+    diagnostics.error(path, "", "the picture cannot be read; grey is shown: " + oneLine(OIIO::geterror()));
     return grey();
   }
   const OIIO::ImageSpec spec = file->spec();
@@ -160,9 +182,11 @@ Image readImageFile(const std::string& path, city::Diagnostics& diagnostics) {
   const bool read = spec.format.is_floating_point() ? readReduced<float>(*file, spec, factor, image)
                                                     : readReduced<uint8_t>(*file, spec, factor, image);
   if (!read) {
-    diagnostics.error(path, "", "the picture is damaged; grey is shown: " + file->geterror());
+    diagnostics.error(path, "", "the picture is damaged; grey is shown: " + oneLine(file->geterror()));
     return grey();
   }
+  if (file->format_name() == std::string_view("jpeg") && jpegEndsEarly(path))
+    diagnostics.warn(path, "", "the picture ends early; what is missing of it is grey");
   return image;
 }
 

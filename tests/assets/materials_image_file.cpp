@@ -12,6 +12,8 @@
 #include <functional>
 #include <limits>
 
+#include "city/random.hpp"
+
 namespace vicus::assets {
 namespace {
 
@@ -209,6 +211,31 @@ TEST_F(MaterialsImageFile, TruncatedRealPicturesAreErrors) {
         << bytes.substr(0, static_cast<size_t>(static_cast<double>(bytes.size()) * share));
     expectGreyAndError(read(file), file, "");
   }
+}
+
+TEST_F(MaterialsImageFile, AJpegThatEndsEarlyKeepsItsTopAndSaysSo) {
+  std::vector<uint8_t> values;
+  for (int i = 0; i < 256 * 256 * 3; ++i)
+    values.push_back(static_cast<uint8_t>(city::hash32(static_cast<uint32_t>(i)) >> 24));
+  const Image whole = read(write<uint8_t>("whole.jpg", 256, 256, 3, values));
+  EXPECT_TRUE(diagnostics_.messages.empty());
+  std::ifstream in(path("whole.jpg"), std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(in)), {});
+  std::ofstream(path("cut.jpg"), std::ios::binary) << bytes.substr(0, bytes.size() / 2);
+  const Image cut = read(path("cut.jpg"));
+  ASSERT_EQ(diagnostics_.messages.size(), 1U);
+  EXPECT_EQ(describe(diagnostics_.messages[0]),
+            path("cut.jpg") + ": the picture ends early; what is missing of it is grey");
+  EXPECT_FALSE(diagnostics_.hasErrors());
+  const std::ptrdiff_t row = 256 * 4;
+  EXPECT_TRUE(std::equal(cut.rgba.end() - 64 * row, cut.rgba.end(), whole.rgba.end() - 64 * row));
+}
+
+TEST_F(MaterialsImageFile, MessagesAreOneLine) {
+  std::ofstream(path("empty.png"));
+  read(path("empty.png"));
+  ASSERT_EQ(diagnostics_.messages.size(), 1U);
+  EXPECT_THAT(diagnostics_.messages[0].message, testing::Not(HasSubstr("\n")));
 }
 
 TEST_F(MaterialsImageFile, RealPicturesRead) {
