@@ -493,10 +493,12 @@ HousePlan jettied(int variant, bool tall) {
   upper.jetty = 0.45f;
   upper.front = {{Fill::Window, 0, 0.38f * w, 0.95f, 2.05f}};
   upper.back = {{Fill::Window, 0, 1.1f, 0.95f, 2.0f}};
+  if (variant >= 3) upper.side = {{Fill::Window, 0, 0.9f, 0.95f, 1.95f}};
   p.storeys.push_back(upper);
   if (tall) {
     upper.jetty = 0.35f;
     upper.height = 2.45f;
+    upper.side.clear();
     upper.front = evenly(Fill::Window, 2, w - 1.0f, 1.1f, 0.9f, 1.95f);
     p.storeys.push_back(upper);
   }
@@ -531,6 +533,7 @@ HousePlan timberRow(int variant) {
   upper.jetty = 0.4f;
   upper.front = evenly(Fill::Window, w > 7 ? 3 : 2, w, 1.0f, 0.95f, 1.95f);
   upper.back = {{Fill::Window, 0.3f, 1.1f, 0.9f, 1.9f}};
+  if (variant >= 4) upper.side = {{Fill::Window, 0, 0.9f, 0.95f, 1.9f}};
   p.storeys.push_back(upper);
   p.chimneys = {{-side * (0.5f * w - 0.6f), -0.2f}};
   if (variant % 3 == 2) p.dormer = 1.5f;

@@ -31,7 +31,7 @@ constexpr double kTownRadius = 640;     // metres
 constexpr double kTownGround = 745;     // metres: with the ground before its walls
 constexpr double kQuarterRadius = 285;  // metres
 constexpr double kLattice = 690;        // metres between quarters
-constexpr uint32_t kMostFieldTrees = 150000;
+constexpr size_t kMostTrees = 200000;
 constexpr int kMostCoverTexels = 4096;  // to a side: what a ground texture can hold
 
 /// All that is decided before any quarter is laid out.
@@ -197,8 +197,6 @@ Layout manyQuarters(uint32_t count, uint32_t seed) {
     }
   }
   addTracks(out.quarters.front(), land, key);
-  const double places_ = static_cast<double>(out.side) * out.side / 225 * 0.25;
-  for (QuarterBrief& b : out.quarters) b.trees = std::min(1.0, kMostFieldTrees / places_);
   return out;
 }
 
@@ -258,6 +256,16 @@ void keepPlots(std::vector<QuarterPlan>& plans, size_t houses) {
   }
 }
 
+/// Thins the trees evenly where there are too many.
+void thinTrees(std::vector<QuarterPlan>& plans) {
+  const size_t total = std::accumulate(plans.begin(), plans.end(), size_t{0},
+                                       [](size_t sum, const QuarterPlan& q) { return sum + q.trees.size(); });
+  if (total <= kMostTrees) return;
+  const double share = static_cast<double>(kMostTrees) / static_cast<double>(total);
+  for (QuarterPlan& q : plans)
+    std::erase_if(q.trees, [&](const TreeSpot& t) { return city::hash32(t.seed, 1) > share * 0.99 * 4294967295.0; });
+}
+
 TourStops stopsOf(const QuarterBrief& brief, const QuarterPlan& town, const Landscape& land) {
   TourStops stops;
   stops.centre = brief.centre;
@@ -303,6 +311,7 @@ City assemble(const Layout& layout, const Landscape& land, HouseCatalogue houses
   const auto say = [&](std::string_view stage, double fraction) {
     if (progress) progress(stage, fraction);
   };
+  thinTrees(plans);
   City out;
   out.name = "norvic";
   out.materials = paletteMaterials();

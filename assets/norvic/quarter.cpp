@@ -783,6 +783,7 @@ class QuarterPlanner {
                   g.across() * random_.uniform(-0.2, 1) * g.halfDepth,
               static_cast<uint8_t>(random_.uniform() < 0.7 ? TreeKind::Apple : TreeKind::Oak), 2.2);
     plantFields();
+    plantOrchards();
     // In churchyards and the close, inside what is kept free of houses.
     for (const PlanRect& g : out_.grass) {
       const bool close = g.halfWidth > 30;
@@ -795,6 +796,21 @@ class QuarterPlanner {
         out_.trees.push_back({p, static_cast<uint8_t>(i % 3 == 0 ? TreeKind::Poplar : TreeKind::Oak), random_.bits()});
       }
     }
+  }
+
+  /// Rows of apple trees where a block has much ground behind its houses' gardens.
+  void plantOrchards() {
+    constexpr double kRow = 8;
+    const dvec2 axis = direction(brief_.heading), across = leftOf(axis);
+    const int reach = static_cast<int>(brief_.radius / kRow);
+    for (int i = -reach; i <= reach; ++i)
+      for (int k = -reach; k <= reach; ++k) {
+        const dvec2 p = brief_.centre + axis * (i * kRow) + across * (k * kRow);
+        if (edgeRoom(p) < 20 || noise(p, 130, brief_.seed + 23) < -0.15 || random_.uniform() < 0.25) continue;
+        if (!dry(p, 6) || reserved(p, 4) || occupied_.anyContains(p, 13) || streets_.anyNear(p, 9)) continue;
+        const dvec2 off(random_.uniform(-1, 1), random_.uniform(-1, 1));
+        out_.trees.push_back({p + off, static_cast<uint8_t>(TreeKind::Apple), random_.bits()});
+      }
   }
 
   /// Hedges and trees along the fields' edges, a few woods, and willows by the water.
@@ -810,11 +826,10 @@ class QuarterPlanner {
     for (double y = brief_.min.y; y < brief_.max.y; y += kStep)
       for (double x = brief_.min.x; x < brief_.max.x; x += kStep) {
         const dvec2 p = dvec2(x, y) + dvec2(random_.uniform(), random_.uniform()) * kStep;
-        const double chance = random_.uniform();
-        if (chance > brief_.trees || inside(p) < 4) continue;
+        if (inside(p) < 4) continue;
         const double bank = land_.riverDistance(p) - land_.dryDistance();
         if (bank > -1 && bank < 5 && (!brief_.walled || edgeRoom(p) < 0)) {
-          if (chance < 0.4 * brief_.trees && treeMayStand(p, 2))
+          if (random_.uniform() < 0.4 && treeMayStand(p, 2))
             out_.trees.push_back({p, static_cast<uint8_t>(TreeKind::Willow), random_.bits()});
           continue;
         }

@@ -34,7 +34,6 @@ struct QuarterBrief {
   glm::dvec2 market{60, 36};  ///< metres
   uint32_t seed = 1;
   uint32_t fieldSeed = 1;  ///< the same for all quarters
-  double trees = 1;        ///< share of the places for trees in the fields that have one, 0 to 1
   int churches = 1;
   int bridges = 0;  ///< wanted within the radius, where a river is
   bool walled = false, castle = false, cathedral = false;
