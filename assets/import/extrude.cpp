@@ -75,16 +75,21 @@ double roofHeight(double run, double pitch) {
   return std::min(kHighestRoof, run * std::tan(pitch));
 }
 
-/// Two slopes that meet over the middle of the shorter pair of edges, which become gables.
+/// Two slopes that meet over the middle of two opposite edges, which become gables: those that neighbours stand against
+/// (the ridges of a terrace run along the street), else the shorter pair.
 ///
 ///      3 ────────── 2
 ///      │ ╲          │        ridge from the middle of 3–0 to the middle of 1–2
-///    m ├──────────── n       where 0–1 and 2–3 are the longer pair
+///    m ├──────────── n       where 1–2 and 3–0 become gables
 ///      │            │
 ///      0 ────────── 1
-void addGableRoof(BuildingBuilder& builder, const Extrusion& e, const Ring& ring) {
+void addGableRoof(BuildingBuilder& builder, const Extrusion& e, const Extrusion::Part& part) {
+  const Ring& ring = part.polygon.rings[0];
+  const std::vector<uint8_t>& shared = part.shared[0];
   const auto length = [&](size_t i) { return glm::length(ring[(i + 1) % 4] - ring[i]); };
-  const size_t s = length(0) + length(2) >= length(1) + length(3) ? 0 : 1;
+  const int against02 = shared[0] + shared[2], against13 = shared[1] + shared[3];
+  const bool along0 = against02 != against13 ? against13 > against02 : length(0) + length(2) >= length(1) + length(3);
+  const size_t s = along0 ? 0 : 1;
   const glm::dvec2 p0 = ring[s], p1 = ring[s + 1], p2 = ring[(s + 2) % 4], p3 = ring[(s + 3) % 4];
   const glm::dvec2 n = (p1 + p2) / 2.0, m = (p3 + p0) / 2.0;
   const double width = (length((s + 1) % 4) + length((s + 3) % 4)) / 2;
@@ -193,7 +198,7 @@ std::optional<city::BuildingGeometry> extrude(const Extrusion& e, std::string na
   for (const Extrusion::Part& part : parts) {
     switch (roofShapeOf(part.polygon)) {
       case RoofShape::Gable:
-        addGableRoof(builder, e, part.polygon.rings[0]);
+        addGableRoof(builder, e, part);
         break;
       case RoofShape::Pyramid:
         addPyramidRoof(builder, e, part.polygon);

@@ -439,7 +439,8 @@ void addFootprints(Assembly& a, std::vector<Outline>& outlines) {
     // In steps of 0.25 m, so that equal footprints on nearly level ground remain equal.
     e.foundation = std::ceil(std::max(0.5, bases[i] - lowest + 0.3) * 4) / 4;
     e.pitch = glm::radians(25.0 + 5.0 * variant / 7.0);
-    e.style = styleFor(attribute(o.source->attributes, {"material", "building:material", "materiau"}), variant);
+    e.style = styleFor(attribute(o.source->attributes, {"material", "material.value", "building:material", "materiau"}),
+                       variant);
     e.parts = std::move(o.parts);
     for (Extrusion::Part& p : e.parts)
       for (Ring& ring : p.polygon.rings)
@@ -522,7 +523,10 @@ void addSurfaceBuildings(Assembly& a, const std::vector<Source>& sources) {
       for (glm::dvec3& p : local.points) p -= position;
       positions[i] = position;
       SurfaceOptions options;
-      options.style = brickStyleFor(attribute(s.buildings[i].attributes, {"material", "material.value"}));
+      const std::string_view material = attribute(s.buildings[i].attributes, {"material", "material.value"});
+      // The cities that come as surfaces alone are mostly of brick; beside footprints a building looks like those.
+      options.style =
+          s.footprints.empty() ? brickStyleFor(material) : styleFor(material, seedOf(s.buildings[i].id) % 8);
       if (a.city.terrain)
         options.groundAt = [&](glm::dvec2 p) {
           const auto h = a.city.terrain->heightAt(p.x + position.x, p.y + position.y);

@@ -97,6 +97,17 @@ TEST(Footprints, RectangleGetsAGableRoofAlongItsLongSide) {
   EXPECT_NEAR(volumeAbove(g, -0.5), 20 * 8 * 6.5 + 20 * 8 * static_cast<double>(ridge) / 2, 0.05);
 }
 
+TEST(Footprints, RidgesOfATerraceRunAlongTheStreet) {
+  std::vector<std::string> features;
+  for (int i = 0; i < 3; ++i)  // deeper than wide
+    features.push_back(feature("Polygon", polygon({{{i * 6.0, 0}, {i * 6.0 + 6, 0}, {i * 6.0 + 6, 12}, {i * 6.0, 12}}}),
+                               R"({"height": 6})"));
+  const LoadResult r = loadFeatures(features);
+  for (const BuildingGeometry& g : r.city->buildingTypes)
+    for (const city::Plane& p : g.planes)
+      EXPECT_TRUE(p.kind != PlaneKind::Gable || std::abs(p.normal.x) > 0.99f) << g.name;
+}
+
 TEST(Footprints, RoofsOfLargeHallsStayLow) {
   const LoadResult r =
       loadFeatures({feature("Polygon", polygon({{{0, 0}, {80, 0}, {80, 60}, {0, 60}}}), R"({"height": 6})")});
