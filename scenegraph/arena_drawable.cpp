@@ -4,6 +4,25 @@
 #include <osg/State>
 
 namespace vicus::scenegraph {
+namespace {
+
+using As = VertexAttribute::As;
+
+/// At the locations of shaders/vertex.glsl and instance.vert.
+constexpr VertexAttribute kVertexAttributes[] = {
+    {0, 3, GL_FLOAT, As::Float, offsetof(city::Vertex, position)},
+    {1, 2, GL_FLOAT, As::Float, offsetof(city::Vertex, uv)},
+    {2, 2, GL_SHORT, As::Normalised, offsetof(city::Vertex, normal)},
+    {3, 2, GL_UNSIGNED_SHORT, As::Integer, offsetof(city::Vertex, material)},
+};
+constexpr VertexAttribute kInstanceAttributes[] = {
+    {4, 3, GL_FLOAT, As::Float, offsetof(GpuInstance, position)},
+    {5, 1, GL_UNSIGNED_INT, As::Integer, offsetof(GpuInstance, tile)},
+    {6, 2, GL_FLOAT, As::Float, offsetof(GpuInstance, turn)},
+    {7, 2, GL_UNSIGNED_INT, As::Integer, offsetof(GpuInstance, seed)},
+};
+
+}  // namespace
 
 ArenaBuffers::ArenaBuffers(Arena arena) : arena_(std::move(arena)) {
   for (const ArenaChunk& chunk : arena_.chunks) {
@@ -12,16 +31,18 @@ ArenaBuffers::ArenaBuffers(Arena arena) : arena_(std::move(arena)) {
   }
 }
 
-GLuint ArenaBuffers::vertexArray(uint32_t index) {
+void ArenaBuffers::bind(uint32_t index, GLuint instances) {
   Chunk& chunk = *chunks_[index];
   if (chunk.vertexArray == 0) {
     ArenaChunk& data = arena_.chunks[index];
     chunk.vertices.fill(std::span<const city::Vertex>(data.vertices), GL_STATIC_DRAW);
     chunk.indices.fill(std::span<const uint32_t>(data.indices), GL_STATIC_DRAW);
-    chunk.vertexArray = makeVertexArray(chunk.vertices, chunk.indices);
+    chunk.vertexArray = makeVertexArray(chunk.indices, kVertexAttributes, kInstanceAttributes);
     data = {};
   }
-  return chunk.vertexArray;
+  glBindVertexArray(chunk.vertexArray);
+  glBindVertexBuffer(kVertexSource, chunk.vertices.name(), 0, sizeof(city::Vertex));
+  glBindVertexBuffer(kInstanceSource, instances, 0, sizeof(GpuInstance));
 }
 
 void ArenaBuffers::release() {
@@ -35,12 +56,12 @@ void ArenaBuffers::release() {
 InstanceGroup::InstanceGroup(std::vector<GpuInstance> instances, std::vector<uint32_t> geometryOf)
     : geometries(std::move(geometryOf)), instances_(std::move(instances)) {}
 
-void InstanceGroup::bind() {
+GLuint InstanceGroup::buffer() {
   if (!buffer_.exists()) {
     buffer_.fill(std::span<const GpuInstance>(instances_), GL_STATIC_DRAW);
     instances_ = {};
   }
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kInstanceBinding, buffer_.name());
+  return buffer_.name();
 }
 
 ArenaDrawable::ArenaDrawable(std::shared_ptr<ArenaBuffers> buffers, std::shared_ptr<InstanceGroup> group,
@@ -89,16 +110,15 @@ void ArenaDrawable::drawImplementation(osg::RenderInfo& info) const {
   osg::State& state = *info.getState();
   if (group_->drawn.empty()) return;
   state.unbindVertexBufferObject();
-  group_->bind();
   tiles_->bind(kTileBinding);
   if (ordering_ == Ordering::ByState)
-    drawOrdered();
+    drawOrdered(group_->buffer());
   else
-    drawInSceneOrder(state);
+    drawInSceneOrder(state, group_->buffer());
   glBindVertexArray(0);
 }
 
-void ArenaDrawable::drawOrdered() const {
+void ArenaDrawable::drawOrdered(GLuint instances) const {
   size_t total = 0;
   for (const auto& list : commands_) total += list.size();
   if (total == 0) return;
@@ -116,7 +136,7 @@ void ArenaDrawable::drawOrdered() const {
   for (uint32_t chunk = 0; chunk < commands_.size(); ++chunk) {
     const size_t count = commands_[chunk].size();
     if (count == 0) continue;
-    glBindVertexArray(buffers_->vertexArray(chunk));
+    buffers_->bind(chunk, instances);
     glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
                                 reinterpret_cast<const void*>(first * sizeof(DrawCommand)), static_cast<GLsizei>(count),
                                 0);
@@ -125,14 +145,14 @@ void ArenaDrawable::drawOrdered() const {
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
 }
 
-void ArenaDrawable::drawInSceneOrder(osg::State& state) const {
+void ArenaDrawable::drawInSceneOrder(osg::State& state, GLuint instances) const {
   const Arena& arena = buffers_->arena();
   const auto part = static_cast<size_t>(part_);
   uint32_t bound = UINT32_MAX;
   for (const uint32_t i : group_->drawn) {
     const ArenaGeometry& g = arena.geometries[group_->geometries[i]];
     if (g.parts[part].count == 0) continue;
-    if (g.chunk != bound) glBindVertexArray(buffers_->vertexArray(bound = g.chunk));
+    if (g.chunk != bound) buffers_->bind(bound = g.chunk, instances);
     for (uint32_t p = g.planes.first; p < g.planes.end(); ++p) {
       const ArenaPlane& plane = arena.planes[p];
       if (plane.parts[part].count == 0) continue;

@@ -15,7 +15,7 @@
 
 namespace vicus::scenegraph {
 
-/// An instance as shaders/instance.vert reads it: metres from its tile's base; cosine and sine of its heading.
+/// An instance as shaders/instance.vert gets it: metres from its tile's base; cosine and sine of its heading.
 struct GpuInstance {
   glm::vec3 position;
   uint32_t tile;
@@ -32,8 +32,8 @@ class ArenaBuffers {
   const Arena& arena() const { return arena_; }
   uint64_t bytes() const { return bytes_; }
 
-  /// With the context current.
-  GLuint vertexArray(uint32_t chunk);
+  /// Binds the chunk's vertex array with `instances` as its instances. With the context current.
+  void bind(uint32_t chunk, GLuint instances);
   void release();
 
  private:
@@ -51,8 +51,8 @@ class InstanceGroup {
  public:
   explicit InstanceGroup(std::vector<GpuInstance> instances, std::vector<uint32_t> geometries);
   size_t size() const { return geometries.size(); }
-  /// With the context current.
-  void bind();
+  /// The buffer of GpuInstance. With the context current.
+  GLuint buffer();
   void release() { buffer_.release(); }
 
   std::vector<uint32_t> geometries;  ///< for each instance
@@ -89,8 +89,8 @@ class ArenaDrawable : public osg::Drawable {
   osg::Object* clone(const osg::CopyOp&) const override { return nullptr; }
 
  private:
-  void drawOrdered() const;
-  void drawInSceneOrder(osg::State& state) const;
+  void drawOrdered(GLuint instances) const;
+  void drawInSceneOrder(osg::State& state, GLuint instances) const;
 
   std::shared_ptr<ArenaBuffers> buffers_;
   std::shared_ptr<InstanceGroup> group_;

@@ -22,21 +22,24 @@ void GlBuffer::release() {
   capacity_ = 0;
 }
 
-GLuint makeVertexArray(const GlBuffer& vertices, const GlBuffer& indices) {
+GLuint makeVertexArray(const GlBuffer& indices, std::span<const VertexAttribute> ofVertices,
+                       std::span<const VertexAttribute> ofInstances) {
   GLuint name = 0;
   glGenVertexArrays(1, &name);
   glBindVertexArray(name);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices.name());
-  glBindBuffer(GL_ARRAY_BUFFER, vertices.name());
-  constexpr auto kStride = static_cast<GLsizei>(sizeof(city::Vertex));
-  const auto at = [](size_t offset) { return reinterpret_cast<const void*>(offset); };
-  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, kStride, at(offsetof(city::Vertex, position)));
-  glVertexAttribPointer(1, 2, GL_FLOAT, GL_FALSE, kStride, at(offsetof(city::Vertex, uv)));
-  glVertexAttribPointer(2, 2, GL_SHORT, GL_TRUE, kStride, at(offsetof(city::Vertex, normal)));
-  glVertexAttribIPointer(3, 2, GL_UNSIGNED_SHORT, kStride, at(offsetof(city::Vertex, material)));
-  for (GLuint location = 0; location < 4; ++location) glEnableVertexAttribArray(location);
+  const auto add = [](const VertexAttribute& a, GLuint source) {
+    if (a.as == VertexAttribute::As::Integer)
+      glVertexAttribIFormat(a.location, a.components, a.type, a.offset);
+    else
+      glVertexAttribFormat(a.location, a.components, a.type, a.as == VertexAttribute::As::Normalised, a.offset);
+    glVertexAttribBinding(a.location, source);
+    glEnableVertexAttribArray(a.location);
+  };
+  for (const VertexAttribute& a : ofVertices) add(a, kVertexSource);
+  for (const VertexAttribute& a : ofInstances) add(a, kInstanceSource);
+  glVertexBindingDivisor(kInstanceSource, 1);
   glBindVertexArray(0);
-  glBindBuffer(GL_ARRAY_BUFFER, 0);
   return name;
 }
 

@@ -7,8 +7,6 @@
 #include <cstdint>
 #include <span>
 
-#include "city/vertex.hpp"
-
 namespace vicus::scenegraph {
 
 /// A GL buffer, made when it is first filled. Invariant: owns its name until `release`, which needs the context
@@ -36,8 +34,23 @@ class GlBuffer {
   size_t capacity_ = 0;
 };
 
-/// Makes a vertex array over buffers of city::Vertex and 32-bit indices, at the locations of shaders/vertex.glsl. The
-/// vertex array and array buffer bindings are 0 afterwards.
-GLuint makeVertexArray(const GlBuffer& vertices, const GlBuffer& indices);
+/// One attribute of a vertex: where it goes and where it lies.
+struct VertexAttribute {
+  GLuint location;
+  GLint components;
+  GLenum type;
+  enum class As : uint8_t { Float, Normalised, Integer } as;
+  GLuint offset;  ///< bytes from the start of its vertex or instance
+};
+
+/// Where a vertex array takes its attributes from: one vertex after another, or one entry for each draw's base
+/// instance.
+constexpr GLuint kVertexSource = 0;
+constexpr GLuint kInstanceSource = 1;
+
+/// Makes a vertex array with these attributes from kVertexSource and kInstanceSource (whose buffers are bound when
+/// drawing, by glBindVertexBuffer) and with 32-bit indices. The vertex array binding is 0 afterwards.
+GLuint makeVertexArray(const GlBuffer& indices, std::span<const VertexAttribute> ofVertices,
+                       std::span<const VertexAttribute> ofInstances);
 
 }  // namespace vicus::scenegraph

@@ -40,13 +40,14 @@ class Instances : public Feature {
     buffers_ = std::make_shared<ArenaBuffers>(std::move(content.arena));
     gpuBytes_ = buffers_->bytes() + content.set->size() * sizeof(GpuInstance);
 
-    const std::string classes = "TEXTURE_CLASSES " + std::to_string(parts.textures->arrays.size());
+    const std::vector<std::string>& defines = parts.textures->defines;
+    std::vector<std::string> withHoles = defines;
+    withHoles.emplace_back("CUT_OUT");
     std::vector<std::pair<ArenaPart, SurfaceStates>> looks;
     if (buffers_->arena().has(ArenaPart::Opaque))
-      looks.emplace_back(ArenaPart::Opaque, surfaceStates(PassId::Opaque, "instance.vert", "surface.frag", {classes}));
+      looks.emplace_back(ArenaPart::Opaque, surfaceStates(PassId::Opaque, "instance.vert", "surface.frag", defines));
     if (buffers_->arena().has(ArenaPart::CutOut))
-      looks.emplace_back(ArenaPart::CutOut,
-                         surfaceStates(PassId::CutOut, "instance.vert", "surface.frag", {classes, "CUT_OUT"}));
+      looks.emplace_back(ArenaPart::CutOut, surfaceStates(PassId::CutOut, "instance.vert", "surface.frag", withHoles));
 
     const std::vector<city::Range> runs = city::tileRuns(*content.set, city.grid);
     const uint32_t tilesOfGroup = city.grid.tileCount() / kGroups;

@@ -20,14 +20,14 @@ namespace vicus::scenegraph {
 
 struct MaterialTextures {
   std::vector<osg::ref_ptr<osg::Texture2DArray>> arrays;  ///< one for each size class, on texture units 0, 1, …
-  osg::ref_ptr<osg::ShaderStorageBufferBinding> table;    ///< at kMaterialBinding
+  osg::ref_ptr<osg::BufferIndexBinding> table;            ///< at kMaterialBinding
+  std::vector<std::string> defines;                       ///< that shaders/materials.glsl and surface.frag need
   std::vector<uint8_t> cutOut;                            ///< for each material: its picture has holes
   std::vector<uint32_t> classOf;                          ///< for each material
   uint64_t bytes = 0;
 };
 
-/// Bindings of shader storage blocks; shaders/*.glsl names the same.
-constexpr GLuint kInstanceBinding = 0;
+/// Bindings of uniform and storage blocks; shaders/*.glsl names the same.
 constexpr GLuint kTileBinding = 1;
 constexpr GLuint kMaterialBinding = 2;
 

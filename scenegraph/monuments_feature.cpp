@@ -47,13 +47,12 @@ osg::ref_ptr<osg::Geometry> geometryOf(const city::TriangleMesh& mesh, ArenaPart
 class Monuments : public Feature {
  public:
   Monuments(const city::City& city, const SceneParts& parts) : Feature("monuments") {
-    const std::string classes = "TEXTURE_CLASSES " + std::to_string(parts.textures->arrays.size());
     std::map<uint32_t, Mesh> meshes;
     for (uint32_t i = 0; i < city.monuments.size(); ++i) {
       const city::Monument& m = city.monuments[i];
       auto [it, isNew] = meshes.try_emplace(m.mesh);
       Mesh& mesh = it->second;
-      if (isNew) addMesh(mesh, city.meshes[m.mesh], parts, classes);
+      if (isNew) addMesh(mesh, city.meshes[m.mesh], parts);
 
       osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform;
       place->setName("monuments/" + (m.name.empty() ? std::to_string(i) : m.name));
@@ -82,7 +81,7 @@ class Monuments : public Feature {
     DrawCounts cost;
   };
 
-  void addMesh(Mesh& mesh, const city::MeshGeometry& from, const SceneParts& parts, const std::string& classes) {
+  void addMesh(Mesh& mesh, const city::MeshGeometry& from, const SceneParts& parts) {
     for (const ArenaPart part : {ArenaPart::Opaque, ArenaPart::CutOut}) {
       const auto geometry = geometryOf(from.mesh, part, parts.textures->cutOut);
       if (!geometry) continue;
@@ -90,10 +89,11 @@ class Monuments : public Feature {
       geometry->setName(from.name + (cutOut ? " cut-out" : ""));
       SurfaceStates& states = cutOut ? cutOutStates_ : opaqueStates_;
       const PassId pass = cutOut ? PassId::CutOut : PassId::Opaque;
-      if (!states.of(Variant::Colour))
-        states =
-            surfaceStates(pass, "monument.vert", "surface.frag",
-                          cutOut ? std::vector<std::string>{classes, "CUT_OUT"} : std::vector<std::string>{classes});
+      if (!states.of(Variant::Colour)) {
+        std::vector<std::string> defines = parts.textures->defines;
+        if (cutOut) defines.emplace_back("CUT_OUT");
+        states = surfaceStates(pass, "monument.vert", "surface.frag", defines);
+      }
       addSurface(geometry, states, pass);
       mesh.geometries.push_back(geometry);
       mesh.cost.triangles += geometry->getPrimitiveSet(0)->getNumIndices() / 3;

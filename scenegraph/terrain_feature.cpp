@@ -11,15 +11,31 @@
 namespace vicus::scenegraph {
 namespace {
 
-/// A tile's patch in the ground map and in the detail's repeats, at the tile's base.
-using PatchUv = glm::vec4;
+/// A tile's base in the ground map and in the detail's repeats; what terrain.vert gets for each patch.
+struct GpuPatch {
+  glm::vec4 uv;
+  uint32_t tile;
+};
+
+using As = VertexAttribute::As;
+
+/// At the locations of shaders/terrain.vert.
+constexpr VertexAttribute kVertexAttributes[] = {
+    {0, 3, GL_FLOAT, As::Float, offsetof(TerrainVertex, position)},
+    {2, 2, GL_SHORT, As::Normalised, offsetof(TerrainVertex, normal)},
+};
+constexpr VertexAttribute kPatchAttributes[] = {
+    {3, 4, GL_FLOAT, As::Float, offsetof(GpuPatch, uv)},
+    {4, 1, GL_UNSIGNED_INT, As::Integer, offsetof(GpuPatch, tile)},
+};
 
 class TerrainDrawable : public osg::Drawable {
  public:
-  TerrainDrawable(TerrainMesh mesh, std::vector<PatchUv> uvs, std::shared_ptr<TileTable> tiles, Ordering ordering)
-      : mesh_(std::move(mesh)), uvs_(std::move(uvs)), tiles_(std::move(tiles)), ordering_(ordering) {
+  TerrainDrawable(TerrainMesh mesh, std::vector<GpuPatch> gpuPatches, std::shared_ptr<TileTable> tiles,
+                  Ordering ordering)
+      : mesh_(std::move(mesh)), gpuPatches_(std::move(gpuPatches)), tiles_(std::move(tiles)), ordering_(ordering) {
     bytes_ = mesh_.vertices.size() * sizeof(TerrainVertex) + mesh_.indices.size() * sizeof(uint32_t) +
-             uvs_.size() * sizeof(PatchUv);
+             gpuPatches_.size() * sizeof(GpuPatch);
     setUseDisplayList(false);
     setCullingActive(false);
   }
@@ -59,9 +75,10 @@ class TerrainDrawable : public osg::Drawable {
     if (commands_.empty()) return;
     info.getState()->unbindVertexBufferObject();
     if (vertexArray_ == 0) upload();
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kInstanceBinding, uvBuffer_.name());
     tiles_->bind(kTileBinding);
     glBindVertexArray(vertexArray_);
+    glBindVertexBuffer(kVertexSource, vertices_.name(), 0, sizeof(TerrainVertex));
+    glBindVertexBuffer(kInstanceSource, patchBuffer_.name(), 0, sizeof(GpuPatch));
     if (ordering_ == Ordering::ByState) {
       commandBuffer_.fill(std::span<const DrawCommand>(commands_), GL_STREAM_DRAW);
       glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commandBuffer_.name());
@@ -85,7 +102,7 @@ class TerrainDrawable : public osg::Drawable {
     if (!state) return;
     if (vertexArray_ != 0) glDeleteVertexArrays(1, &vertexArray_);
     vertexArray_ = 0;
-    for (GlBuffer* buffer : {&vertices_, &indices_, &uvBuffer_, &commandBuffer_}) buffer->release();
+    for (GlBuffer* buffer : {&vertices_, &indices_, &patchBuffer_, &commandBuffer_}) buffer->release();
     tiles_->release();
   }
   const char* className() const override { return "TerrainDrawable"; }
@@ -96,21 +113,10 @@ class TerrainDrawable : public osg::Drawable {
   void upload() const {
     vertices_.fill(std::span<const TerrainVertex>(mesh_.vertices), GL_STATIC_DRAW);
     indices_.fill(std::span<const uint32_t>(mesh_.indices), GL_STATIC_DRAW);
-    uvBuffer_.fill(std::span<const PatchUv>(uvs_), GL_STATIC_DRAW);
+    patchBuffer_.fill(std::span<const GpuPatch>(gpuPatches_), GL_STATIC_DRAW);
     mesh_.vertices = {};
     mesh_.indices = {};
-    glGenVertexArrays(1, &vertexArray_);
-    glBindVertexArray(vertexArray_);
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.name());
-    glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
-    constexpr auto kStride = static_cast<GLsizei>(sizeof(TerrainVertex));
-    glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, kStride, nullptr);
-    glVertexAttribPointer(2, 2, GL_SHORT, GL_TRUE, kStride,
-                          reinterpret_cast<const void*>(offsetof(TerrainVertex, normal)));
-    glEnableVertexAttribArray(0);
-    glEnableVertexAttribArray(2);
-    glBindVertexArray(0);
-    glBindBuffer(GL_ARRAY_BUFFER, 0);
+    vertexArray_ = makeVertexArray(indices_, kVertexAttributes, kPatchAttributes);
   }
 
   void rebindMap(osg::State& state) const {
@@ -119,7 +125,7 @@ class TerrainDrawable : public osg::Drawable {
   }
 
   mutable TerrainMesh mesh_;
-  std::vector<PatchUv> uvs_;
+  std::vector<GpuPatch> gpuPatches_;  ///< one for each tile
   std::shared_ptr<TileTable> tiles_;
   Ordering ordering_;
   osg::ref_ptr<osg::Texture2D> map_;
@@ -127,7 +133,7 @@ class TerrainDrawable : public osg::Drawable {
   std::vector<DrawCommand> commands_;
   std::vector<std::pair<float, uint32_t>> order_;  ///< distance squared, patch
   mutable GLuint vertexArray_ = 0;
-  mutable GlBuffer vertices_, indices_, uvBuffer_, commandBuffer_;
+  mutable GlBuffer vertices_, indices_, patchBuffer_, commandBuffer_;
 };
 
 class Terrain : public Feature {
@@ -135,14 +141,15 @@ class Terrain : public Feature {
   Terrain(const city::City& city, const SceneParts& parts) : Feature("terrain") {
     const city::HeightField& field = *city.terrain;
     std::vector<glm::dvec3> bases;
-    std::vector<PatchUv> uvs;
+    std::vector<GpuPatch> patches;
     for (uint32_t t = 0; t < city.grid.tileCount(); ++t) {
       bases.push_back(parts.tiles->base(t));
       const glm::dvec2 inMap = (glm::dvec2(bases.back()) - field.origin) / field.extent();
       const glm::dvec2 inDetail = glm::fract(glm::dvec2(bases.back()) / kGroundDetailMetres);
-      uvs.emplace_back(glm::vec2(inMap), glm::vec2(inDetail));
+      patches.push_back({glm::vec4(glm::vec2(inMap), glm::vec2(inDetail)), t});
     }
-    drawable_ = new TerrainDrawable(terrainMesh(field, city.grid, bases), std::move(uvs), parts.tiles, parts.ordering);
+    drawable_ =
+        new TerrainDrawable(terrainMesh(field, city.grid, bases), std::move(patches), parts.tiles, parts.ordering);
     drawable_->setName("terrain/patches");
     drawable_->setMap(parts.groundMap);
     node_->addChild(drawable_);

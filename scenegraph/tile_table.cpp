@@ -1,5 +1,7 @@
 #include "scenegraph/tile_table.hpp"
 
+#include <cassert>
+
 namespace vicus::scenegraph {
 
 std::vector<glm::dvec3> tileBases(const city::City& city) {
@@ -12,7 +14,8 @@ std::vector<glm::dvec3> tileBases(const city::City& city) {
   return bases;
 }
 
-TileTable::TileTable(std::vector<glm::dvec3> bases) : bases_(std::move(bases)), fromEye_(bases_.size()) {
+TileTable::TileTable(std::vector<glm::dvec3> bases) : bases_(std::move(bases)), fromEye_(kMostTiles) {
+  assert(bases_.size() <= kMostTiles);
   moveTo(glm::dvec3(0));
 }
 
@@ -24,7 +27,7 @@ void TileTable::moveTo(const glm::dvec3& eye) {
 void TileTable::bind(GLuint index) {
   if (changed_) buffer_.fill(std::span<const glm::vec4>(fromEye_), GL_STREAM_DRAW);
   changed_ = false;
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, index, buffer_.name());
+  glBindBufferBase(GL_UNIFORM_BUFFER, index, buffer_.name());
 }
 
 }  // namespace vicus::scenegraph

@@ -10,6 +10,9 @@
 
 namespace vicus::scenegraph {
 
+/// Tiles that shaders/tiles.glsl has room for: the largest grid's.
+constexpr size_t kMostTiles = 32 * 32;
+
 /// A tile's base is the point that what stands on it is stored relative to: its centre, half way up its bounds. One for
 /// each tile of the grid, metres from the city's origin.
 std::vector<glm::dvec3> tileBases(const city::City& city);

@@ -3,16 +3,13 @@
 #include "materials.glsl"
 #include "lighting.glsl"
 
-struct Instance {
-  vec4 positionAndTile;  // metres from the tile's base; the tile's index in the bits of w
-  vec4 turnSeedItem;     // cosine and sine of the heading; seed and item id in the bits of z and w
-};
-layout(std430, binding = 0) readonly buffer Instances {
-  Instance instances[];
-};
-layout(std430, binding = 1) readonly buffer Tiles {
-  vec4 tileFromEye[];  // metres from the eye to each tile's base, subtracted in double
-};
+// One for each instance, by the draw's base instance: an attribute, because software GL fetches those much faster than it
+// reads storage blocks (GpuInstance in scenegraph/arena_drawable.hpp).
+layout(location = 4) in vec3 instancePosition;  // metres from the tile's base
+layout(location = 5) in uint instanceTile;
+layout(location = 6) in vec2 turn;              // cosine and sine of the heading
+layout(location = 7) in uvec2 seedAndItem;
+#include "tiles.glsl"
 uniform mat4 clipFromEyeRelative;
 
 #ifdef ITEM_ID
@@ -30,14 +27,12 @@ out float heightAboveGround;
 #endif
 
 void main() {
-  Instance instance = instances[gl_BaseInstanceARB];
-  vec2 turn = instance.turnSeedItem.xy;
   vec3 turned = vec3(turn.x * vertexPosition.x - turn.y * vertexPosition.y,
                      turn.y * vertexPosition.x + turn.x * vertexPosition.y, vertexPosition.z);
-  vec3 fromEye = tileFromEye[floatBitsToUint(instance.positionAndTile.w)].xyz + (instance.positionAndTile.xyz + turned);
+  vec3 fromEye = tileFromEye[instanceTile].xyz + (instancePosition + turned);
   gl_Position = clipFromEyeRelative * vec4(fromEye, 1.0);
 #ifdef ITEM_ID
-  item = floatBitsToUint(instance.turnSeedItem.w);
+  item = seedAndItem.y;
 #ifdef CUT_OUT
   Material material = materials[vertexMaterial.x];
   uv = vertexUv * material.repeatsAndPlace.xy;
@@ -53,7 +48,7 @@ void main() {
   // Leaves are seen from both sides and let light through: light them as the crown's surface, not as their card.
   normal = normalize(normal + vec3(0.0, 0.0, 0.6));
 #endif
-  Seen s = seen(fromEye, normal, tintOf(material.tint, floatBitsToUint(instance.turnSeedItem.z), vertexMaterial.x),
+  Seen s = seen(fromEye, normal, tintOf(material.tint, seedAndItem.x, vertexMaterial.x),
                 material.gloss.x);
   scale = s.scale;
   add = s.add;

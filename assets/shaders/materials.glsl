@@ -5,9 +5,15 @@ struct Material {
   vec4 tint;             // rgb, and how far a seed may shift it
   vec4 gloss;            // specular
 };
+#ifdef MATERIALS
+layout(std140, binding = 2) uniform Materials {
+  Material materials[MATERIALS];
+};
+#else
 layout(std430, binding = 2) readonly buffer Materials {
   Material materials[];
 };
+#endif
 
 // Numbers in [0, 1) from a seed: the hash of city/random.hpp.
 vec2 randomPair(uint seed) {

@@ -35,7 +35,7 @@ void append(std::string& out, std::string_view fileName, std::vector<std::string
 }  // namespace
 
 std::string shaderSource(std::string_view fileName, std::span<const std::string> defines) {
-  std::string out = "#version 430 compatibility\n#extension GL_ARB_shader_draw_parameters : require\n";
+  std::string out = "#version 430 compatibility\n";
   for (const std::string& define : defines) out += "#define " + define + "\n";
   std::vector<std::string_view> done;
   append(out, fileName, done);

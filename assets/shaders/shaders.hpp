@@ -10,7 +10,7 @@ namespace vicus::assets {
 /// Text of a shader file as it lies in assets/shaders ("lighting.glsl"); empty where there is none of that name.
 std::string_view shaderText(std::string_view fileName);
 
-/// A whole shader ready to compile: `#version 430`, the extensions that all need, one `#define` line for each of
+/// A whole shader ready to compile: `#version 430`, one `#define` line for each of
 /// `defines` ("CUT_OUT", "TEXTURE_CLASSES 2"), then the file with each `#include "name"` line replaced by that file,
 /// once. A missing file gives an `#error` line, so that the compiler reports it.
 std::string shaderSource(std::string_view fileName, std::span<const std::string> defines);

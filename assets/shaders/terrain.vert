@@ -3,12 +3,9 @@
 layout(location = 0) in vec3 vertexPosition;  // metres from the tile's base
 layout(location = 2) in vec2 vertexNormal;    // octahedral
 
-layout(std430, binding = 0) readonly buffer Patches {
-  vec4 patchUv[];  // of the tile's centre: in the ground map, then in the detail's repeats
-};
-layout(std430, binding = 1) readonly buffer Tiles {
-  vec4 tileFromEye[];  // metres from the eye to each tile's base, subtracted in double
-};
+layout(location = 3) in vec4 patchUv;         // of the tile's base: in the ground map, then in the detail's repeats
+layout(location = 4) in uint patchTile;
+#include "tiles.glsl"
 uniform mat4 clipFromEyeRelative;
 
 #ifdef ITEM_ID
@@ -28,14 +25,13 @@ vec3 fromOctahedral(vec2 e) {
 }
 
 void main() {
-  vec3 fromEye = tileFromEye[gl_BaseInstanceARB].xyz + vertexPosition;
+  vec3 fromEye = tileFromEye[patchTile].xyz + vertexPosition;
   gl_Position = clipFromEyeRelative * vec4(fromEye, 1.0);
 #ifdef ITEM_ID
   item = 0xffffffffu;
 #else
-  vec4 uv = patchUv[gl_BaseInstanceARB];
-  mapUv = uv.xy + vertexPosition.xy * mapRepeats;
-  detailUv = uv.zw + vertexPosition.xy * detailRepeats;
+  mapUv = patchUv.xy + vertexPosition.xy * mapRepeats;
+  detailUv = patchUv.zw + vertexPosition.xy * detailRepeats;
   Seen s = seen(fromEye, fromOctahedral(vertexNormal), vec3(1.0), 0.0);
   scale = s.scale;
   add = s.add;
