@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <queue>
 
 #include "viewer/surroundings.hpp"
@@ -73,17 +74,28 @@ void rasterise(const std::vector<std::vector<glm::dvec2>>& rings, const Distance
 
 constexpr glm::ivec2 kNeighbours[] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
 
-/// Where one walks in a town rather than about it or along its walls: metres to the nearest building.
-bool streetLike(double distance) {
-  return distance >= 1.8 && distance <= 9;
+constexpr double kBuiltIn = 0.7;  ///< enclosure of a street: houses on both sides, sky at its ends
+
+double enclosureAt(const DistanceMap& map, size_t cell) {
+  return map.enclosure.empty() ? 1 : static_cast<double>(map.enclosure[cell]);
 }
 
-/// Price of a metre at a distance from the nearest building. It falls towards the middle of a street and rises again in
-/// the open, so that a way neither hugs walls nor leaves the town. Tuned on Périgueux's medieval centre.
-double price(double distance) {
-  constexpr double kHug = 2.5, kOpen = 9, kMostOpen = 10;
-  const double open = std::clamp((distance - kOpen) / kOpen, 0.0, kMostOpen);
-  return 1 + (kHug / distance) * (kHug / distance) + open * open;
+/// How good a cell is to begin or end a walk on: 2 a street between houses, 1 near a house, 0 anything else.
+int worth(const DistanceMap& map, size_t cell) {
+  constexpr double kNarrow = 1.8, kWide = 9;  // metres to the nearest house
+  const double d = static_cast<double>(map.distance[cell]);
+  if (d < kNarrow || d > kWide) return 0;
+  return enclosureAt(map, cell) >= kBuiltIn ? 2 : 1;
+}
+
+/// Price of a metre. It falls towards the middle of a street and rises again in the open and at the town's edge, so
+/// that a way neither hugs walls nor leaves the town. Tuned on Périgueux and The Hague.
+double price(const DistanceMap& map, size_t cell) {
+  constexpr double kHug = 2.5, kOpen = 7, kMostOpen = 10, kEdge = 3;
+  const double d = static_cast<double>(map.distance[cell]);
+  const double open = std::clamp((d - kOpen) / kOpen, 0.0, kMostOpen);
+  const double edge = kEdge * std::max(0.0, kBuiltIn - enclosureAt(map, cell)) / kBuiltIn;
+  return 1 + (kHug / d) * (kHug / d) + open * open + edge;
 }
 
 struct Cheapest {
@@ -111,7 +123,7 @@ Cheapest cheapestFrom(const DistanceMap& map, uint32_t start, double keepClear) 
       const double d = static_cast<double>(map.distance[n]);
       if (d < keepClear) continue;
       const double length = map.cell * std::sqrt(static_cast<double>(step.x * step.x + step.y * step.y));
-      const double reached = cost + length * price(d);
+      const double reached = cost + length * price(map, n);
       if (reached >= out.cost[n]) continue;
       out.cost[n] = reached, out.before[n] = cell;
       open.emplace(reached, static_cast<uint32_t>(n));
@@ -135,7 +147,7 @@ size_t cellOfLargestPiece(const DistanceMap& map, double keepClear) {
     while (!open.empty()) {
       const uint32_t cell = open.back();
       open.pop_back();
-      if (streetLike(static_cast<double>(map.distance[cell]))) ++street;
+      if (worth(map, cell) == 2) ++street;
       const glm::ivec2 at(static_cast<int>(cell) % map.size.x, static_cast<int>(cell) / map.size.x);
       for (const glm::ivec2 step : kNeighbours) {
         const glm::ivec2 next = at + step;
@@ -151,15 +163,14 @@ size_t cellOfLargestPiece(const DistanceMap& map, double keepClear) {
   return best;
 }
 
-/// The cell that is dearest to reach, street before anything else.
+/// The cell that is dearest to reach among those that are worth most.
 uint32_t farthest(const DistanceMap& map, const Cheapest& ways, uint32_t start) {
   uint32_t best = start;
-  bool bestIsStreet = false;
+  int most = -1;
   for (uint32_t cell = 0; cell < ways.cost.size(); ++cell) {
     if (!std::isfinite(ways.cost[cell])) continue;
-    const bool street = streetLike(static_cast<double>(map.distance[cell]));
-    if (street > bestIsStreet || (street == bestIsStreet && ways.cost[cell] > ways.cost[best]))
-      best = cell, bestIsStreet = street;
+    const int w = worth(map, cell);
+    if (w > most || (w == most && ways.cost[cell] > ways.cost[best])) best = cell, most = w;
   }
   return best;
 }
@@ -188,6 +199,37 @@ std::vector<float> distanceTransform(const std::vector<uint8_t>& occupied, glm::
   return distance;
 }
 
+void findEnclosure(DistanceMap& map) {
+  constexpr int kDirections = 16, kBlock = 4;  // one answer for a block of 4 × 4 cells: a few metres
+  constexpr double kReach = 40;                // metres
+  map.enclosure.assign(map.distance.size(), 0);
+  const auto cellAt = [&](glm::dvec2 p) { return glm::ivec2(glm::floor((p - map.origin) / map.cell + 0.5)); };
+  const auto inside = [&](glm::ivec2 c) { return c.x >= 0 && c.y >= 0 && c.x < map.size.x && c.y < map.size.y; };
+  // Steps along a direction as far as nothing can stand in the way.
+  const auto meets = [&](glm::dvec2 from, glm::dvec2 direction) {
+    for (double t = 0; t < kReach;) {
+      const glm::ivec2 c = cellAt(from + t * direction);
+      if (!inside(c)) return false;
+      const double d = static_cast<double>(map.distance[map.index(c)]);
+      if (d < map.cell) return true;
+      t += std::max(d - map.cell, map.cell);
+    }
+    return false;
+  };
+  for (int row = 0; row < map.size.y; row += kBlock)
+    for (int column = 0; column < map.size.x; column += kBlock) {
+      const glm::ivec2 middle = glm::min(glm::ivec2(column, row) + kBlock / 2, map.size - 1);
+      int met = 0;
+      for (int k = 0; k < kDirections; ++k) {
+        const double angle = 2 * std::numbers::pi * (k + 0.5) / kDirections;
+        met += meets(map.centre(middle), {std::cos(angle), std::sin(angle)});
+      }
+      for (int y = row; y < std::min(row + kBlock, map.size.y); ++y)
+        for (int x = column; x < std::min(column + kBlock, map.size.x); ++x)
+          map.enclosure[map.index({x, y})] = static_cast<float>(met) / kDirections;
+    }
+}
+
 DistanceMap distanceToFootprints(const city::City& city, glm::dvec2 centre, double halfSide, double cell) {
   DistanceMap map;
   map.cell = cell;
@@ -198,6 +240,7 @@ DistanceMap distanceToFootprints(const city::City& city, glm::dvec2 centre, doub
     rasterise(footprintOf(city, city.buildings.instances[i]), map, occupied);
   map.distance = distanceTransform(occupied, map.size);
   for (float& d : map.distance) d *= static_cast<float>(cell);
+  findEnclosure(map);
   return map;
 }
 

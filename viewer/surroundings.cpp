@@ -167,7 +167,18 @@ glm::dvec2 densestPoint(const City& city) {
   const auto tileAt = [&](int column, int row) -> const city::Tile& {
     return city.tiles[city::mortonIndex(static_cast<uint32_t>(column), static_cast<uint32_t>(row))];
   };
-  uint64_t most = 0;
+  // Ground under roofs, and of large buildings no more than a house has: warehouses do not make a town.
+  constexpr double kHouse = 200;  // square metres
+  std::vector<double> built(city.tiles.size(), 0);
+  for (size_t t = 0; t < city.tiles.size(); ++t)
+    for (uint32_t i = city.tiles[t].instances.first; i < city.tiles[t].instances.end(); ++i) {
+      const glm::dvec3 box(city.buildings.bounds[i].size());
+      built[t] += std::min(box.x * box.y, kHouse);
+    }
+  const auto builtAt = [&](int column, int row) {
+    return built[city::mortonIndex(static_cast<uint32_t>(column), static_cast<uint32_t>(row))];
+  };
+  double most = 0;
   glm::dvec2 sum(0);
   uint32_t count = 1;
   for (int row = 0; row < size; ++row)
@@ -175,10 +186,9 @@ glm::dvec2 densestPoint(const City& city) {
       const city::Tile& tile = tileAt(column, row);
       if (tile.instances.count == 0) continue;
       // The tile itself counts thrice, so that of two neighbours the fuller one wins.
-      uint64_t score = 2 * uint64_t{tile.instances.count};
+      double score = 2 * builtAt(column, row);
       for (int y = std::max(row - 1, 0); y <= std::min(row + 1, size - 1); ++y)
-        for (int x = std::max(column - 1, 0); x <= std::min(column + 1, size - 1); ++x)
-          score += tileAt(x, y).instances.count;
+        for (int x = std::max(column - 1, 0); x <= std::min(column + 1, size - 1); ++x) score += builtAt(x, y);
       if (score <= most) continue;
       most = score, sum = glm::dvec2(0), count = tile.instances.count;
       for (uint32_t i = tile.instances.first; i < tile.instances.end(); ++i)

@@ -24,8 +24,9 @@ double groundAt(const city::City& city, glm::dvec2 point);
 /// origin; `groundAt` the centre where there is nothing else.
 double highestWithin(const city::City& city, glm::dvec2 centre, double halfSide);
 
-/// Where most buildings stand: the middle of the buildings on the tile with the most of them on it and its eight
-/// neighbours. Without buildings the middle of the extent, in an empty city the origin.
+/// Where the town is densest: the middle of the buildings on the tile with the most built-up ground on it and its eight
+/// neighbours, no building counting more than a house. Without buildings the middle of the extent, in an empty city the
+/// origin.
 glm::dvec2 densestPoint(const city::City& city);
 
 /// Footprint of a building in the city's frame: outer ring, then holes; the corners of its bounds where it has none.

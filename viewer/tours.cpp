@@ -150,6 +150,8 @@ std::vector<Tour::Key> walkAlong(const City& city, std::vector<WayPoint> way) {
     keys[i].heading = heading / static_cast<double>(last - first + 1);
     keys[i].pitch = pitch / static_cast<double>(last - first + 1);
   }
+  // A way mostly ends at a wall or in the open: stop where the last of it still lies ahead.
+  if (keys.size() > 4 * ahead) keys.resize(keys.size() - ahead);
   return keys;
 }
 
@@ -304,9 +306,10 @@ std::vector<WayPoint> streetWay(const City& city, const city::StreetGraph& stree
 
 /// Where there are no streets: along the middles of what lies between the houses.
 std::vector<WayPoint> ridgeStreet(const City& city) {
-  constexpr double kHalfWindow = 320;  // metres: a quarter of an hour's walk across
+  constexpr double kHalfWindow = 300;  // metres: a quarter of an hour's walk across
   constexpr double kMargin = 30;       // metres about the outermost houses
-  constexpr double kCell = 1.25;       // metres: half a narrow lane
+  constexpr double kCell = 1;          // metres
+  constexpr double kKeepClear = 1.5;   // metres on the map, whose walls are up to 0.7 m off: half a narrow lane
   if (city.buildings.empty()) return {};
   const glm::dvec2 middle = densestPoint(city);
   // Small scenes get a window that fits them, so that the walk stays among what there is.
@@ -317,7 +320,7 @@ std::vector<WayPoint> ridgeStreet(const City& city) {
   const double halfSide = 0.5 * std::max(to.x - from.x, to.y - from.y);
   const DistanceMap map = distanceToFootprints(city, 0.5 * (from + to), halfSide, kCell);
   std::vector<WayPoint> way;
-  for (const glm::dvec2& p : ridgeWay(map, kCell)) way.push_back({p, -kInfinity});
+  for (const glm::dvec2& p : ridgeWay(map, kKeepClear)) way.push_back({p, -kInfinity});
   return way;
 }
 
@@ -348,7 +351,7 @@ double pitchTo(const glm::dvec3& eye, const glm::dvec3& target) {
 }
 
 Tour makeFlyover(const City& city) {
-  constexpr double kLargestRadius = 1200, kSmallestRadius = 60;  // metres
+  constexpr double kLargestRadius = 800, kSmallestRadius = 60;  // metres
   constexpr int kKeys = 64;
   constexpr double kSeconds = 90;
   Tour tour;
@@ -356,7 +359,7 @@ Tour makeFlyover(const City& city) {
   const glm::dvec2 middle = densestPoint(city);
   const glm::dvec3 size = city.extent.empty() ? glm::dvec3(0) : city.extent.size();
   const double radius = std::clamp(0.55 * std::max(size.x, size.y), kSmallestRadius, kLargestRadius);
-  const double lowest = 0.06 * radius + 20, highest = 0.32 * radius;
+  const double lowest = 0.03 * radius + 15, highest = 0.18 * radius + 10;
 
   // A loop of one and a half turns: in from the south-west, over the middle, round it and out high to the north.
   std::vector<glm::dvec2> plan;

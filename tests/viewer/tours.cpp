@@ -316,10 +316,11 @@ TEST(DistanceTransform, AgreesWithLookingAtEveryCell) {
           for (int u = 0; u < size.x; ++u)
             if (occupied[static_cast<size_t>(v * size.x + u)]) nearest = std::min(nearest, std::hypot(x - u, y - v));
         const double found = static_cast<double>(distance[static_cast<size_t>(y * size.x + x)]);
-        if (std::isinf(nearest))
+        if (std::isinf(nearest)) {
           EXPECT_TRUE(std::isinf(found));
-        else
+        } else {
           EXPECT_NEAR(found, nearest, 1e-5);
+        }
       }
   }
 }
