@@ -22,7 +22,7 @@ class DrawnTown : public testing::Test {
     context_ = makeOffscreenContext(error);
     if (!context_) GTEST_SKIP() << "no offscreen GL: " << error;
     city_ = test::gridTown();
-    city_.terrain = test::terrain(41, 10, [](double x, double y) { return -0.02 * x - 0.01 * y - 2; });
+    test::setTerrain(city_, test::terrain(41, 10, [](double x, double y) { return -0.02 * x - 0.01 * y - 2; }));
     for (const auto knobs : {plan::planKnobs(), scenegraph::sceneKnobs(), viewerKnobs()}) knobs_.declare(knobs);
     knobs_.set("textures.budget_mb", 1);
     city::Diagnostics diagnostics;

@@ -95,7 +95,7 @@ TEST(Navigator, PitchStopsShortOfTheZenithAndHeadingStaysSmall) {
 
 TEST(Navigator, WalkingKeepsToTheGround) {
   city::City city = test::gridTown();
-  city.terrain = test::terrain(101, 5, [](double x, double) { return 0.2 * x; });
+  test::setTerrain(city, test::terrain(101, 5, [](double x, double) { return 0.2 * x; }));
   Navigator n;
   n.pose.eye = {-40, 8, groundAt(city, {-40, 8}) + kEyeHeight};
   n.pose.pitch = 1;  // looking up does not lift one off the ground
@@ -112,7 +112,7 @@ TEST(Navigator, WalkingKeepsToTheGround) {
 
 TEST(Navigator, ACliffIsEasedButNeverWalkedInside) {
   city::City city;
-  city.terrain = test::terrain(41, 1, [](double x, double) { return x > 0 ? 100.0 : 0.0; });
+  test::setTerrain(city, test::terrain(41, 1, [](double x, double) { return x > 0 ? 100.0 : 0.0; }));
   Navigator n;
   n.pose.eye = {-2, 0, kEyeHeight};
   for (int k = 0; k < 300; ++k) {

@@ -74,4 +74,11 @@ city::HeightField terrain(int n, double spacing, const Height& height) {
   return field;
 }
 
+/// The city on that terrain, finished anew.
+inline void setTerrain(city::City& city, city::HeightField field) {
+  city.terrain = std::move(field);
+  city::CityParts parts{city.buildings.instances, city.trees.instances};
+  city::finishCity(city, std::move(parts));
+}
+
 }  // namespace vicus::test

@@ -174,7 +174,7 @@ TEST(MakeTours, StreetIsWalkableInOtherPlaces) {
 
 TEST(MakeTours, StreetFollowsTheTerrain) {
   City city = test::gridTown();
-  city.terrain = test::terrain(81, 5, [](double x, double y) { return 10 * std::sin(x / 30) + 0.1 * y; });
+  test::setTerrain(city, test::terrain(81, 5, [](double x, double y) { return 10 * std::sin(x / 30) + 0.1 * y; }));
   expectWalkable(city, makeTours(city)[0]);
 }
 
@@ -214,7 +214,7 @@ TEST(MakeTours, BrokenStreetsAreNoObstacle) {
 TEST(MakeTours, BridgesAreWalkedOnTheirDecks) {
   City city = test::gridTown(4, 2);
   // A river bed 6 m deep between x = 40 and x = 60.
-  city.terrain = test::terrain(161, 2, [](double x, double) { return x > 40 && x < 60 ? -6.0 : 0.0; });
+  test::setTerrain(city, test::terrain(161, 2, [](double x, double) { return x > 40 && x < 60 ? -6.0 : 0.0; }));
   city::StreetGraph graph;
   for (const double x : {-10.0, 10.0, 36.0, 64.0, 90.0, 120.0}) graph.nodes.push_back({{x, 8, 0}});
   for (uint32_t k = 0; k < 5; ++k)
@@ -231,7 +231,8 @@ TEST(MakeTours, BridgesAreWalkedOnTheirDecks) {
 
 TEST(MakeTours, FlyoverClearsEverything) {
   City city = test::gridTown();
-  city.terrain = test::terrain(101, 10, [](double x, double y) { return std::hypot(x - 60, y) < 25 ? 300.0 : 0.0; });
+  test::setTerrain(city,
+                   test::terrain(101, 10, [](double x, double y) { return std::hypot(x - 60, y) < 25 ? 300.0 : 0.0; }));
   const Tour flyover = makeTours(city)[1];
   for (double t = 0; t <= durationOf(flyover); t += 0.25) {
     const glm::dvec3 eye = poseAt(flyover, t).eye;
@@ -371,7 +372,7 @@ TEST(GroundAt, TerrainThenWaterThenBuildings) {
   EXPECT_NEAR(groundAt(city, {50000, 5}), 12, 1e-9) << "far from all buildings the nearest one counts";
   EXPECT_EQ(groundAt(city, {std::nan(""), 0}), 0);
   EXPECT_EQ(groundAt({}, {3, 4}), 0);
-  city.terrain = test::terrain(11, 10, [](double, double) { return 3.0; });
+  test::setTerrain(city, test::terrain(11, 10, [](double, double) { return 3.0; }));
   EXPECT_NEAR(groundAt(city, {5, 5}), 3, 1e-9);
   city::WaterBody pond;
   pond.level = 4;
