@@ -91,7 +91,7 @@ std::vector<plan::FeatureReport> featuresOf(const plan::Planner& planner, const 
     const bool on = knobs.on(knob.name);
     const auto afterTechniques =
         std::find_if(features.begin(), features.end(), [](const auto& f) { return !f.technique; });
-    features.insert(afterTechniques, {std::string(knob.name), true, on, on ? "always pays" : "knob"});
+    features.insert(afterTechniques, {std::string(knob.name), true, on, on ? "draws are grouped by texture" : "knob"});
   }
   return features;
 }

@@ -83,7 +83,7 @@ TEST_F(CommandLine, WrongUsageIsTwoAndSaysWhy) {
     std::string message;
   } cases[] = {
       {{}, "subcommand is required"},
-      {{"dance"}, "dance"},
+      {{"dance"}, "there is no command 'dance'; there are walk info knobs"},
       {{"walk", "--tempo", "3"}, "--tempo"},
       {{"walk", "--frames", "0"}, "--frames"},
       {{"walk", "--frames", "many"}, "--frames"},
