@@ -493,12 +493,12 @@ HousePlan jettied(int variant, bool tall) {
   upper.jetty = 0.45f;
   upper.front = {{Fill::Window, 0, 0.38f * w, 0.95f, 2.05f}};
   upper.back = {{Fill::Window, 0, 1.1f, 0.95f, 2.0f}};
-  if (variant >= 3) upper.side = {{Fill::Window, 0, 0.9f, 0.95f, 1.95f}};
+  if (variant >= 3) upper.side = evenly(Fill::Window, 2, p.depth - 2, 0.95f, 0.95f, 1.95f);
   p.storeys.push_back(upper);
   if (tall) {
     upper.jetty = 0.35f;
-    upper.height = 2.45f;
     upper.side.clear();
+    upper.height = 2.45f;
     upper.front = evenly(Fill::Window, 2, w - 1.0f, 1.1f, 0.9f, 1.95f);
     p.storeys.push_back(upper);
   }
@@ -533,7 +533,7 @@ HousePlan timberRow(int variant) {
   upper.jetty = 0.4f;
   upper.front = evenly(Fill::Window, w > 7 ? 3 : 2, w, 1.0f, 0.95f, 1.95f);
   upper.back = {{Fill::Window, 0.3f, 1.1f, 0.9f, 1.9f}};
-  if (variant >= 4) upper.side = {{Fill::Window, 0, 0.9f, 0.95f, 1.9f}};
+  if (variant >= 4) upper.side = evenly(Fill::Window, 2, p.depth - 1, 0.95f, 0.95f, 1.9f);
   p.storeys.push_back(upper);
   p.chimneys = {{-side * (0.5f * w - 0.6f), -0.2f}};
   if (variant % 3 == 2) p.dormer = 1.5f;
@@ -565,6 +565,7 @@ HousePlan brickRow(int variant) {
   middle.jetty = middle.timber ? 0.4f : 0.0f;
   middle.front = evenly(Fill::Window, bays, w - 0.4f, 1.05f, 0.9f, 2.15f);
   middle.back = {{Fill::Window, 0, 1.1f, 0.9f, 2.0f}};
+  if (variant >= 3) middle.side = evenly(Fill::Window, 2, p.depth - 1, 0.95f, 0.9f, 2.0f);
   p.storeys.push_back(middle);
   Storey top = middle;
   top.height = 2.4f;
@@ -687,6 +688,7 @@ HousePlan cottage(int variant) {
                   {variant % 3 ? Fill::Shuttered : Fill::Window, -0.33f * w, 0.8f, 0.85f, 1.7f},
                   {variant % 3 ? Fill::Shuttered : Fill::Window, 0.33f * w, 0.8f, 0.85f, 1.7f}};
   ground.back = {{Fill::Window, 0, 0.8f, 0.9f, 1.7f}};
+  if (variant >= 3) ground.side = {{Fill::Window, 0.6f, 0.8f, 0.85f, 1.65f}};
   p.storeys.push_back(ground);
   p.chimneys = {{(variant % 2 ? 1.0f : -1.0f) * (0.5f * w - 0.6f), 0}};
   p.chimney = kRubble;
@@ -716,6 +718,7 @@ HousePlan workshop(int variant) {
   upper.wall = kFlint;
   upper.front = evenly(Fill::Window, 2, w - 0.6f, 1.2f, 0.85f, 1.95f);
   upper.back = {{Fill::Window, 0, 1.2f, 0.9f, 1.9f}};
+  if (variant >= 3) upper.side = evenly(Fill::Window, 2, p.depth - 1, 1.0f, 0.85f, 1.9f);
   p.storeys.push_back(upper);
   p.chimneys = {{-0.5f * w + 0.6f, 0.4f}};
   p.awning = variant % 2 ? kWoolStraw : kWoolRed;
@@ -952,6 +955,8 @@ HouseCatalogue makeHouseCatalogue() {
       variant.geometry = static_cast<uint32_t>(out.geometry.size());
       variant.width = plan.width, variant.depth = plan.depth;
       variant.frontReach = maker.reach();
+      variant.sideWindows =
+          std::any_of(plan.storeys.begin(), plan.storeys.end(), [](const Storey& st) { return !st.side.empty(); });
       const bool eavesAtSides = plan.roof == RoofForm::GableToStreet || plan.roof == RoofForm::Hip;
       variant.sideReach = eavesAtSides ? plan.eaves : plan.roof == RoofForm::SteppedGable ? plan.eaves : plan.verge;
       out.geometry.push_back(maker.make());

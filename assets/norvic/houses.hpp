@@ -41,8 +41,9 @@ struct HouseVariant {
   uint32_t geometry = 0;  ///< in HouseCatalogue::geometry
   float width = 0;        ///< of the footprint, metres
   float depth = 0;
-  float frontReach = 0;  ///< how far it stands out over the street beyond its footprint
-  float sideReach = 0;   ///< eaves or verge beyond its side walls
+  float frontReach = 0;      ///< how far it stands out over the street beyond its footprint
+  bool sideWindows = false;  ///< windows in its sides: for corners
+  float sideReach = 0;       ///< eaves or verge beyond its side walls
 };
 
 struct HouseCatalogue {

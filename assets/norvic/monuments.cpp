@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -22,8 +23,8 @@ using glm::vec3;
 
 constexpr float kFoundation = -2.5f;  // metres: monuments are long, the ground under them slopes
 
-/// Full detail of a building as a mesh that nothing slides on.
-city::MeshGeometry asMesh(BuildingBuilder& builder, std::string name) {
+/// Full detail of a building as a mesh that nothing slides on, `lift` metres higher in its frame.
+city::MeshGeometry asMesh(BuildingBuilder& builder, std::string name, float lift = 0) {
   const city::BuildingGeometry g = builder.finish();
   city::MeshGeometry out;
   out.name = std::move(name);
@@ -34,6 +35,7 @@ city::MeshGeometry asMesh(BuildingBuilder& builder, std::string name) {
       at = static_cast<uint32_t>(out.mesh.vertices.size());
       city::Vertex v = g.vertices[g.indices[i]];
       v.item = 0, v.slide = 0;
+      v.position.z += lift;
       out.mesh.vertices.push_back(v);
       out.bounds.extend(v.position);
     }
@@ -324,7 +326,8 @@ city::MeshGeometry makeCathedral() {
 
 // --- castle ----------------------------------------------------------------------------------------------------------
 
-/// The keep on the mound, its ring wall, and the causeway that climbs to it from +x. z = 0 is the mound's top.
+/// The keep on the mound, its ring wall, and the causeway that climbs to it from +x. Drawn about the mound's top, then
+/// lifted so that z = 0 is its foot.
 city::MeshGeometry makeCastle() {
   BuildingBuilder b("castle");
   constexpr float kHalf = 12.5f, kTop = 23;
@@ -396,7 +399,7 @@ city::MeshGeometry makeCastle() {
                         {x1, y, deck(x1) + 0.95f}, {x0, y, deck(x0) + 0.95f}, {0, 0, 1}, kRubble);
       }
   }
-  return asMesh(b, "castle");
+  return asMesh(b, "castle", rise);
 }
 
 // --- bridge, gate, walls, cross --------------------------------------------------------------------------------------
@@ -637,6 +640,43 @@ city::MeshGeometry makeMarketCross() {
   return asMesh(b, "market cross");
 }
 
+/// Booths under cloth, in rows north of the cross and west of it: the rest of the square stays open.
+city::MeshGeometry makeStalls() {
+  BuildingBuilder b("market stalls");
+  constexpr vec2 kPlaces[] = {{-17, 6},  {-12.5f, 6.3f}, {-8, 5.9f},   {8, 6.2f}, {12.5f, 5.8f},
+                              {17, 6},   {-15, 11},      {-10, 11.2f}, {11, 11},  {15.5f, 10.8f},
+                              {-18, -1}, {-13, -1.4f},   {-16, -6}};
+  for (size_t i = 0; i < std::size(kPlaces); ++i) {
+    const vec2 c = kPlaces[i];
+    const float turn = 0.12f * static_cast<float>(static_cast<int>(i * 7 % 5) - 2);
+    const vec3 x(std::cos(turn), std::sin(turn), 0), y(-x.y, x.x, 0), z(0, 0, 1), o(c, 0);
+    const MaterialId cloth = i % 3 == 0 ? kWoolRed : i % 3 == 1 ? kWoolStraw : kLimewash;
+    const auto at = [&](float u, float v, float w) { return o + x * u + y * v + z * w; };
+    b.beginPlane(PlaneKind::Other, kPlanks, z, false);
+    // The table with its cloth, four posts, and a roof of cloth with a valance in front.
+    b.addBox(o, x, y, z, {-1.4f, -0.7f, -0.4f}, {1.4f, 0.1f, 0.85f}, kPlanks, 0x2f);
+    for (const float u : {-1.5f, 1.5f})
+      for (const float v : {-1.0f, 0.9f})
+        b.addBox(o, x, y, z, {u - 0.05f, v - 0.05f, -0.4f}, {u + 0.05f, v + 0.05f, v < 0 ? 2.05f : 2.5f}, kTimber, 0xf);
+    const vec3 up = glm::normalize(z * 1.9f - y * 0.45f);
+    for (const float side : {1.0f, -1.0f})
+      addQuadFacing(b, at(-1.7f, -1.25f, 2.0f), at(1.7f, -1.25f, 2.0f), at(1.7f, 1.0f, 2.52f), at(-1.7f, 1.0f, 2.52f),
+                    up * side, cloth);
+    for (const float side : {1.0f, -1.0f})
+      addQuadFacing(b, at(-1.7f, -1.25f, 1.72f), at(1.7f, -1.25f, 1.72f), at(1.7f, -1.25f, 2.0f),
+                    at(-1.7f, -1.25f, 2.0f), y * -side, cloth);
+    // Wares: baskets and bales.
+    for (int k = 0; k < 3; ++k) {
+      const float u = -0.9f + 0.85f * static_cast<float>(k);
+      const MaterialId ware = (i + static_cast<size_t>(k)) % 3 == 0   ? kWoolStraw
+                              : (i + static_cast<size_t>(k)) % 3 == 1 ? kThatch
+                                                                      : kWoolRed;
+      b.addBox(o, x, y, z, {u - 0.25f, -0.55f, 0.85f}, {u + 0.25f, -0.1f, 1.05f}, ware, 0x2f);
+    }
+  }
+  return asMesh(b, "market stalls");
+}
+
 /// Adds meshes once and monuments often.
 class Placer {
  public:
@@ -666,12 +706,12 @@ void addMonuments(city::City& city, const Landscape& land, std::span<const Quart
       return std::any_of(q.spots.begin(), q.spots.end(), [&](const Spot& s) { return s.kind == kind; });
     });
   };
-  uint32_t churches[3] = {}, cathedral = 0, castle = 0, cross = 0, bridge = 0, gate = 0;
+  uint32_t churches[3] = {}, cathedral = 0, castle = 0, cross = 0, stalls = 0, bridge = 0, gate = 0;
   if (any(SpotKind::Church))
     for (int v = 0; v < 3; ++v) churches[v] = placer.mesh(makeChurch(v));
   if (any(SpotKind::Cathedral)) cathedral = placer.mesh(makeCathedral());
   if (any(SpotKind::Castle)) castle = placer.mesh(makeCastle());
-  if (any(SpotKind::MarketCross)) cross = placer.mesh(makeMarketCross());
+  if (any(SpotKind::MarketCross)) cross = placer.mesh(makeMarketCross()), stalls = placer.mesh(makeStalls());
   if (any(SpotKind::Bridge)) bridge = placer.mesh(makeBridge(land));
   if (std::any_of(quarters.begin(), quarters.end(), [](const QuarterPlan& q) { return !q.gates.empty(); }))
     gate = placer.mesh(makeGate());
@@ -685,10 +725,11 @@ void addMonuments(city::City& city, const Landscape& land, std::span<const Quart
           placer.place(cathedral, "cathedral", placer.onGround(s.position), s.heading);
           break;
         case SpotKind::Castle:
-          placer.place(castle, "castle", placer.onGround(s.position), s.heading);
+          placer.place(castle, "castle", placer.onGround(s.position) - dvec3(0, 0, kMoundRise), s.heading);
           break;
         case SpotKind::MarketCross:
           placer.place(cross, "market cross", placer.onGround(s.position), s.heading);
+          placer.place(stalls, "market stalls", placer.onGround(s.position), s.heading);
           break;
         case SpotKind::Bridge:
           placer.place(bridge, "bridge", dvec3(s.position, Landscape::kWaterLevel), s.heading);
@@ -705,7 +746,8 @@ void addMonuments(city::City& city, const Landscape& land, std::span<const Quart
         const size_t from = k * (fine.size() - 1) / pieces, to = (k + 1) * (fine.size() - 1) / pieces;
         if (to <= from) continue;
         const std::span<const dvec2> piece = std::span(fine).subspan(from, to - from + 1);
-        const dvec3 middle = placer.onGround(piece[piece.size() / 2]);
+        dvec3 middle = placer.onGround(piece[piece.size() / 2]);
+        for (const dvec2 p : piece) middle.z = std::min(middle.z, placer.onGround(p).z);
         placer.place(placer.mesh(makeTownWall(piece, dvec2(middle), middle.z, terrain,
                                               length / static_cast<double>(pieces) > 30)),
                      "town wall", middle, 0);

@@ -678,7 +678,7 @@ class QuarterPlanner {
       const dvec2 a = points[k - 1], along = points[k] - points[k - 1];
       const double length = glm::length(along);
       if (length < 3) continue;
-      const dvec2 t = along / length, into = leftOf(t);
+      const dvec2 t = along / length;
       double s = 0;
       while (s < length - 2.5) {
         const dvec2 here = a + t * s;
@@ -694,7 +694,9 @@ class QuarterPlanner {
         }
         HouseKind kind = chooseKind(here, street.kind);
         if (any && random_.uniform() < 0.3) kind = last;
-        if (const double used = tryHouse(a, t, into, s, length, street, kind); used > 0) {
+        if (const double used = tryHouse({a, t, length}, s, street, kind,
+                                         (k == 1 && s < 4) || (k + 1 == points.size() && s > length - 9));
+            used > 0) {
           s += used;
           last = kind, any = true;
         } else {
@@ -705,21 +707,31 @@ class QuarterPlanner {
     }
   }
 
-  /// Tries sizes of a kind at `s` along a piece of street; metres of frontage used, 0 where none fits.
-  double tryHouse(dvec2 a, dvec2 t, dvec2 into, double s, double length, const StreetStyle& street, HouseKind kind) {
+  /// A straight piece of a street's side.
+  struct Front {
+    dvec2 start, along;  ///< `along` is a unit vector; houses stand on its left
+    double length;
+  };
+
+  /// Tries sizes of a kind at `s` metres along a front; metres used, 0 where none fits. At a `corner` a side shows.
+  double tryHouse(const Front& front, double s, const StreetStyle& street, HouseKind kind, bool corner) {
     const std::vector<uint32_t>& sizes = houses_.byKind[static_cast<size_t>(kind)];
     const auto count = static_cast<uint32_t>(sizes.size());
     const uint32_t first = random_.below(count);
     const double gap = gapBeside(kind);
-    for (uint32_t i = 0; i < std::min(count, 3u); ++i) {
-      // From a chance size down to narrower ones.
-      const uint32_t index = std::min(first + i, count - 1);
+    // Where a side shows, one of those with windows there, if the kind has them.
+    uint32_t tried = 0;
+    for (uint32_t i = 0; i < 2 * count && tried < 3; ++i) {
+      const uint32_t index = (first + i) % count;
+      if (i < count && houses_.variants[sizes[index]].sideWindows != corner) continue;
+      ++tried;
       const HouseVariant& v = houses_.variants[sizes[index]];
       const double width = static_cast<double>(v.width), depth = static_cast<double>(v.depth);
       const double side = static_cast<double>(v.sideReach);
-      if (s + width > length + 0.25 * width) continue;
-      const double front = 0.5 * street.width + kHouseSetback;
-      const dvec2 centre = a + t * (s + side + 0.5 * width) + into * (front + 0.5 * depth);
+      if (s + width > front.length + 0.25 * width) continue;
+      const dvec2 t = front.along, into = leftOf(t);
+      const double back = 0.5 * street.width + kHouseSetback;
+      const dvec2 centre = front.start + t * (s + side + 0.5 * width) + into * (back + 0.5 * depth);
       const PlanRect ground{centre, t, 0.5 * width, 0.5 * depth};
       PlanRect whole = ground;
       const double reach = static_cast<double>(v.frontReach);
