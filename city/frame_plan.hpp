@@ -11,7 +11,7 @@
 namespace vicus::city {
 
 /// Why something is not drawn.
-enum class DropReason : uint8_t { Frustum };
+enum class DropReason : uint8_t { Frustum, Occluded };
 
 struct DroppedRange {
   Range range;
@@ -38,7 +38,9 @@ struct PlanCounts {
   uint64_t instances = 0, instancesInFrustum = 0, instancesOccluded = 0,
            instancesDrawn = 0;  ///< buildings and monuments
   uint64_t treesDrawn = 0;
-  uint64_t boxTests = 0;  ///< boxes tested against the frustum
+  uint64_t boxTests = 0;      ///< boxes tested against the frustum
+  uint64_t horizonTests = 0;  ///< boxes tested against the cull map
+  uint64_t occluders = 0;     ///< walls drawn into it
 };
 
 struct FramePlan {

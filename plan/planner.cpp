@@ -8,6 +8,7 @@
 #include <chrono>
 #include <utility>
 
+#include "culling/cull_map.hpp"
 #include "culling/frustum.hpp"
 #include "culling/hierarchy.hpp"
 
@@ -20,7 +21,15 @@ using city::FramePlan;
 constexpr city::Knob kPlanKnobs[] = {
     {"frustum_culling", 1, 0, 1, "on/off", "Leaves out what lies outside the picture's edges.",
      "off: everything is drawn, also behind the viewer", "on is the most"},
+    {"cull_map", 1, 0, 1, "on/off", "Leaves out what stands hidden behind houses.",
+     "off: everything within the picture's edges is drawn", "on is the most"},
+    {"cull_map.size", 8192, 64, 65536, "columns all round",
+     "Into how many directions the horizon that houses make is divided.", "narrow houses hide nothing, more is drawn",
+     "planning takes longer and hides hardly more"},
 };
+
+/// Fewer buildings than these draw faster than they are sorted out.
+constexpr size_t kFewestBuildings = 50;
 
 /// What the composition and the steps know of the scene: worked out once.
 struct Scene {
@@ -29,6 +38,9 @@ struct Scene {
   uint64_t tilesWithContent = 0;
   culling::TileTree tileTree;
   city::Aabbf reach;  ///< of every box that is tested against the frustum
+  bool cullMap = false;
+  culling::Occluders occluders;
+  culling::CullMapOptions cullMapOptions;
 };
 
 /// One frame in the making.
@@ -37,6 +49,7 @@ struct Frame {
   const Scene& scene;
   const culling::BoxTest& boxTest;
   FramePlan& plan;
+  uint64_t monumentsInFrustum = 0;
 };
 
 /// One step of a frame: what it is called, whether this scene needs it, what it does. A technique is one or more rows
@@ -74,6 +87,7 @@ void frustumMonuments(Frame& frame) {
     if (culling::classify(frame.boxTest, frame.city.monuments[i].bounds, mask) != culling::Containment::Outside)
       frame.plan.monuments.push_back(i);
   }
+  frame.monumentsInFrustum = frame.plan.monuments.size();
   frame.plan.counts.boxTests += frame.city.monuments.size();
 }
 
@@ -92,6 +106,15 @@ void allTrees(Frame& frame) {
 
 void allMonuments(Frame& frame) {
   for (uint32_t i = 0; i < frame.city.monuments.size(); ++i) frame.plan.monuments.push_back(i);
+  frame.monumentsInFrustum = frame.plan.monuments.size();
+}
+
+void cullHidden(Frame& frame) {
+  const Scene& scene = frame.scene;
+  const culling::CullMapStats stats =
+      culling::cullOccluded(frame.city, scene.occluders, scene.cullMapOptions, frame.plan);
+  frame.plan.counts.horizonTests = stats.boxTests;
+  frame.plan.counts.occluders = stats.occluders;
 }
 
 constexpr Step kSteps[] = {
@@ -103,6 +126,7 @@ constexpr Step kSteps[] = {
     {"all buildings", [](const Scene& s) { return !s.frustumCulling && s.buildings; }, allBuildings},
     {"all trees", [](const Scene& s) { return !s.frustumCulling && s.trees; }, allTrees},
     {"all monuments", [](const Scene& s) { return !s.frustumCulling && s.monuments; }, allMonuments},
+    {"cull map", [](const Scene& s) { return s.cullMap; }, cullHidden},
 };
 
 Scene lookAt(const City& city, const city::Knobs& knobs) {
@@ -123,6 +147,11 @@ Scene lookAt(const City& city, const city::Knobs& knobs) {
   for (const city::InstanceSet* set : {&city.buildings, &city.trees})
     if (!set->nodes.empty()) scene.reach.extend(set->nodes[0].bounds);
   if (scene.frustumCulling) scene.tileTree = culling::buildTileTree(city.tiles);
+  if (knobs.on("cull_map") && city.buildings.size() >= kFewestBuildings) {
+    scene.occluders = culling::occludersOf(city);
+    scene.cullMap = scene.occluders.standing > 0;
+    scene.cullMapOptions = {static_cast<uint32_t>(knobs["cull_map.size"]), scene.frustumCulling};
+  }
   return scene;
 }
 
@@ -144,6 +173,16 @@ std::vector<FeatureReport> describe(const City& city, const city::Knobs& knobs, 
   else if (!scene.frustumCulling)
     why = "nothing stands in the scene";
   features.push_back({"frustum_culling", true, scene.frustumCulling, std::move(why)});
+
+  if (!knobs.on("cull_map"))
+    why = "knob";
+  else if (city.buildings.size() < kFewestBuildings)
+    why = counted(city.buildings.size(), "building", "buildings");
+  else if (!scene.cullMap)
+    why = "no wall stands in the ground";
+  else
+    why = counted(scene.occluders.standing, "wall", "walls") + " may hide what is behind";
+  features.push_back({"cull_map", true, scene.cullMap, std::move(why)});
 
   const bool terrain = city.terrain && !city.terrain->empty();
   features.push_back(
@@ -178,12 +217,12 @@ std::vector<FeatureReport> describe(const City& city, const city::Knobs& knobs, 
          set.inFrustumCount <= size;
 }
 
-void count(const City& city, const Scene& scene, FramePlan& plan) {
+void count(const City& city, const Scene& scene, uint64_t monumentsInFrustum, FramePlan& plan) {
   city::PlanCounts& counts = plan.counts;
   counts.tiles = scene.tilesWithContent;
   counts.tilesDrawn = plan.tiles.size();
   counts.instances = city.buildings.size() + city.monuments.size();
-  counts.instancesInFrustum = plan.buildings.inFrustumCount + plan.monuments.size();
+  counts.instancesInFrustum = plan.buildings.inFrustumCount + monumentsInFrustum;
   counts.instancesDrawn = plan.buildings.drawnCount + plan.monuments.size();
   counts.instancesOccluded = counts.instancesInFrustum - counts.instancesDrawn;
   counts.treesDrawn = plan.trees.drawnCount;
@@ -223,13 +262,13 @@ FramePlan Planner::plan(const City& city, const city::ViewState& view, double /*
   }
 
   const culling::BoxTest boxTest = culling::boxTestFor(culling::frustumOf(view), impl_->scene.reach);
-  Frame frame{city, impl_->scene, boxTest, plan};
+  Frame frame{city, impl_->scene, boxTest, plan, 0};
   for (const Step& step : impl_->steps) {
     const Clock::time_point begin = Clock::now();
     step.run(frame);
     plan.stages.push_back({step.name, std::chrono::duration<double, std::milli>(Clock::now() - begin).count()});
   }
-  count(city, impl_->scene, plan);
+  count(city, impl_->scene, frame.monumentsInFrustum, plan);
 
   assert(coversOnce(plan.buildings, city.buildings.size()));
   assert(coversOnce(plan.trees, city.trees.size()));
