@@ -1,12 +1,13 @@
 #include "assets/import/projection.hpp"
 
+#include <cpl_error.h>
 #include <ogr_spatialref.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <regex>
+#include <string_view>
 #include <vector>
 
 namespace vicus::assets {
@@ -29,6 +30,31 @@ std::string toWkt(const OGRSpatialReference& crs) {
   return out;
 }
 
+/// The code in any of the OGC's spellings of an EPSG name, also those with https that CityJSON uses and PROJ does not
+/// know; empty for other texts.
+std::string epsgCode(const std::string& text) {
+  std::string lower;
+  for (const char c : text)
+    if (c != ' ') lower.push_back(c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c);
+  std::string_view rest = lower;
+  for (const std::string_view prefix :
+       {"https://www.opengis.net/def/crs/", "https://opengis.net/def/crs/", "http://www.opengis.net/def/crs/",
+        "http://opengis.net/def/crs/", "urn:ogc:def:crs:", "urn:x-ogc:def:crs:"})
+    if (rest.starts_with(prefix)) {
+      rest.remove_prefix(prefix.size());
+      break;
+    }
+  if (!rest.starts_with("epsg")) return {};
+  rest.remove_prefix(4);
+  // Perhaps a version between two separators, then the code.
+  const size_t separator = rest.find_last_of(":/");
+  if (separator == std::string_view::npos) return {};
+  const std::string_view code = rest.substr(separator + 1);
+  const bool digits = !code.empty() && code.find_first_not_of("0123456789") == std::string_view::npos;
+  const bool version = rest.substr(0, separator + 1).find_first_not_of("0123456789.:/") == std::string_view::npos;
+  return digits && version ? std::string(code) : std::string();
+}
+
 struct DestroyTransformation {
   void operator()(OGRCoordinateTransformation* t) const { OGRCoordinateTransformation::DestroyCT(t); }
 };
@@ -37,15 +63,14 @@ using Transformation = std::unique_ptr<OGRCoordinateTransformation, DestroyTrans
 }  // namespace
 
 std::string crsFromText(const std::string& text) {
-  // OGC names of EPSG codes in all their spellings, also those that CityJSON uses with https.
-  static const std::regex kEpsg(R"(^\s*(?:https?://(?:www\.)?opengis\.net/def/crs/|urn:(?:x-)?ogc:def:crs:)?)"
-                                R"(EPSG[:/]+(?:[0-9.]*[:/]+)?([0-9]+)\s*$)",
-                                std::regex::icase);
-  std::smatch match;
-  const std::string name = std::regex_match(text, match, kEpsg) ? "EPSG:" + match[1].str() : text;
+  const std::string code = epsgCode(text);
+  const std::string name = code.empty() ? text : "EPSG:" + code;
   OGRSpatialReference crs;
   static constexpr const char* kOptions[] = {"ALLOW_NETWORK_ACCESS=NO", "ALLOW_FILE_ACCESS=NO", nullptr};
-  if (name.empty() || crs.SetFromUserInput(name.c_str(), kOptions) != OGRERR_NONE) return {};
+  CPLPushErrorHandler(CPLQuietErrorHandler);  // that it is not known is this function's answer, not a message
+  const bool known = !name.empty() && crs.SetFromUserInput(name.c_str(), kOptions) == OGRERR_NONE;
+  CPLPopErrorHandler();
+  if (!known) return {};
   crs.StripVertical();
   return toWkt(crs);
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "assets/import/projection.hpp"
 #include "assets/import/read_cityjson.hpp"
 #include "assets/import/surfaces.hpp"
 #include "import_files.hpp"
@@ -260,6 +261,16 @@ TEST(CityJson, RecognisedWhereverItsTypeStands) {
   EXPECT_TRUE(isCityJson(R"({"vertices": [], "type" : "CityJSON"})"));
   EXPECT_FALSE(isCityJson(R"({"type": "FeatureCollection", "name": "CityJSON"})"));
   EXPECT_FALSE(isCityJson(""));
+}
+
+TEST(Projection, KnowsTheSpellingsOfEpsgNames) {
+  for (const char* name :
+       {"EPSG:2154", "epsg:2154", " EPSG:2154 ", "urn:ogc:def:crs:EPSG::2154", "urn:ogc:def:crs:EPSG:6.9:2154",
+        "https://www.opengis.net/def/crs/EPSG/0/2154", "http://www.opengis.net/def/crs/EPSG/0/2154"})
+    EXPECT_EQ(crsName(crsFromText(name)), "EPSG:2154") << name;
+  EXPECT_EQ(crsName(crsFromText("EPSG:7415")), "EPSG:28992") << "without its vertical part";
+  for (const char* name : {"", "EPSG:", "EPSG:x", "nonsense", "/etc/passwd", "https://example.org/crs"})
+    EXPECT_EQ(crsFromText(name), "") << name;
 }
 
 TEST(CityJson, DeepNestingIsNoDanger) {
