@@ -123,6 +123,17 @@ int run(std::span<const std::string> arguments, const Surroundings& surroundings
   addWalk(app, parsed);
   addOthers(app, parsed);
 
+  // CLI11 would only say that a command is missing.
+  const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
+  const auto named = [&](const CLI::App* command) { return command->get_name() == arguments.front(); };
+  if (!arguments.empty() && !arguments.front().starts_with('-') &&
+      std::none_of(commands.begin(), commands.end(), named)) {
+    surroundings.err << "error: there is no command '" << arguments.front() << "'; there are";
+    for (const CLI::App* command : commands) surroundings.err << " " << command->get_name();
+    surroundings.err << "\n";
+    return kWrongUsage;
+  }
+
   try {
     std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
     app.parse(reversed);

@@ -101,9 +101,9 @@ std::optional<Screen> openScreen(const WalkOptions& options, const OpenScene& sc
   return std::nullopt;
 }
 
-/// The tour that the user named; in `code` the exit code where there is none. No keys: a free walk from `start`.
-std::optional<city::Tour> chooseTour(const WalkOptions& options, const std::vector<city::Tour>& tours, Console& console,
-                                     int& code) {
+/// The tour that the user named, `street` where none is (a free walk begins at its start); in `code` the exit code
+/// where there is no such tour.
+std::optional<city::Tour> chooseTour(const WalkOptions& options, const city::City& city, Console& console, int& code) {
   if (!options.path.empty()) {
     city::Diagnostics diagnostics;
     std::optional<city::Tour> path = viewer::readPath(options.path, diagnostics);
@@ -111,6 +111,8 @@ std::optional<city::Tour> chooseTour(const WalkOptions& options, const std::vect
     if (!path) code = kCouldNot;
     return path;
   }
+  if (!options.views.empty()) return city::Tour();
+  const std::vector<city::Tour> tours = viewer::makeTours(city);
   const std::string name = options.tour.empty() ? "street" : options.tour;
   if (const city::Tour* tour = viewer::findTour(tours, name)) return *tour;
   std::string known;
@@ -144,6 +146,14 @@ class Guide {
   }
   bool free() const { return free_; }
 
+  /// Where frames have their moments: waits for the next one. Those that would be late are passed over.
+  void pause() {
+    if (!live_ || !fps_ || frame_ < viewer::kWarmUpFrames) return;
+    const double now = secondsSince(begin_);
+    due_ = std::max(due_ + 1 / *fps_, std::floor(now * *fps_) / *fps_);
+    if (due_ > now) std::this_thread::sleep_for(std::chrono::duration<double>(due_ - now));
+  }
+
   std::optional<viewer::NextView> next() {
     viewer::Input input;
     if (window_) input = window_->poll(), size_ = window_->size();
@@ -163,12 +173,7 @@ class Guide {
     // The clock starts when the first frames have warmed everything up.
     const bool warmUp = frame_++ < viewer::kWarmUpFrames;
     if (warmUp) begin_ = Clock::now();
-    double now = secondsSince(begin_);
-    if (fps_ && !warmUp) {  // wait for the next frame's moment; frames that are late are passed over
-      const double due = std::floor(now * *fps_ + 1) / *fps_;
-      std::this_thread::sleep_for(std::chrono::duration<double>(due - now));
-      now = due;
-    }
+    const double now = warmUp ? 0 : fps_ ? due_ : secondsSince(begin_);
     const double dt = now - time_;
     time_ = now;
     if (free_) {
@@ -197,7 +202,8 @@ class Guide {
   size_t frame_ = 0;
   viewer::Navigator navigator_;
   Clock::time_point begin_ = Clock::now();
-  double time_ = 0;
+  double time_ = 0;  ///< of the frame before, seconds since begin_
+  double due_ = 0;   ///< moment of the next frame, seconds since begin_
   city::ViewState view_;
 };
 
@@ -214,11 +220,14 @@ void tellTimes(const std::vector<viewer::FrameRecord>& records, const std::strin
 
 int walk(const WalkOptions& options, const Surroundings& surroundings) {
   Console console(surroundings);
+  if (const std::string problem = options.headless ? "" : viewer::displayProblem(); !problem.empty()) {
+    console.error(problem);
+    return kCouldNot;
+  }
   int code = kDone;
   std::optional<OpenScene> scene = openScene(options.scene, surroundings, console, code);
   if (!scene) return code;
-  const std::vector<city::Tour> tours = viewer::makeTours(scene->city);
-  const std::optional<city::Tour> tour = chooseTour(options, tours, console, code);
+  const std::optional<city::Tour> tour = chooseTour(options, scene->city, console, code);
   if (!tour) return code;
 
   // The screen, the scene graph and the renderer; the city's buffers reach the card with the first frame.
@@ -246,6 +255,7 @@ int walk(const WalkOptions& options, const Surroundings& surroundings) {
     if (next) size = next->view.viewport;
     return next;
   };
+  hooks.pause = [&] { guide.pause(); };
   if (screen->window) hooks.windowSize = [&] { return screen->window->size(); };
   hooks.keepRecords = !guide.free() || !options.json.empty();
   hooks.drawn = [&](size_t frame, const viewer::FrameRecord&) {

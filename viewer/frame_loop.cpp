@@ -27,11 +27,12 @@ std::span<const city::Knob> viewerKnobs() {
   return kViewerKnobs;
 }
 
-FrameRecord drawFrame(const Stage& stage, Clock::time_point begin, const std::function<city::FramePlan()>& makePlan) {
+FrameRecord drawFrame(const Stage& stage, Clock::time_point begin, const std::function<city::FramePlan()>& makePlan,
+                      city::FramePlan* planned) {
   FrameRecord record;
 
   // Plan: everything decided, nothing drawn.
-  const city::FramePlan plan = makePlan();
+  city::FramePlan plan = makePlan();
   for (const city::StageTime& s : plan.stages) record.stages.push_back({s.name, s.milliseconds});
 
   // Apply, traverse, finish: the plan into the scene graph, and the scene graph onto the card.
@@ -42,6 +43,7 @@ FrameRecord drawFrame(const Stage& stage, Clock::time_point begin, const std::fu
   record.milliseconds = millisecondsSince(begin);
   record.counts = plan.counts;
   record.draw = stage.scene.counts();
+  if (planned) *planned = std::move(plan);
   return record;
 }
 
@@ -50,6 +52,7 @@ std::vector<FrameRecord> runFrames(const Stage& stage, const LoopHooks& hooks) {
   size_t frame = 0;
   plan::PlannerState state;
   for (;;) {
+    if (hooks.pause) hooks.pause();
     const Clock::time_point begin = Clock::now();
 
     // Input: where the eye is now.

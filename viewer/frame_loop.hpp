@@ -54,12 +54,14 @@ struct Stage {
 };
 
 /// The measured part of a frame: makes the plan, draws it and waits for the card. The record's stages are the plan's
-/// steps, apply, traverse and finish; its time runs from `begin`.
+/// steps, apply, traverse and finish; its time runs from `begin`. The plan is handed over to `planned` where given.
 FrameRecord drawFrame(const Stage& stage, std::chrono::steady_clock::time_point begin,
-                      const std::function<city::FramePlan()>& makePlan);
+                      const std::function<city::FramePlan()>& makePlan, city::FramePlan* planned = nullptr);
 
 /// What differs between a window and a row of pictures.
 struct LoopHooks {
+  /// Before each frame, outside its time: waits for the frame's moment. May be empty.
+  std::function<void()> pause;
   /// Reads the devices or the tour: the next view, or nothing to end.
   std::function<std::optional<NextView>()> nextView;
   /// Pixels of the framebuffer that shows the frame; empty where nothing is shown.

@@ -47,11 +47,15 @@ struct Window::Impl {
   }
 };
 
+std::string displayProblem() {
+  if (!glfwInit()) return "no display: use --headless (" + glfwReason() + ")";
+  glfwTerminate();
+  return {};
+}
+
 std::unique_ptr<Window> Window::open(const Options& options, std::string& error) {
-  if (!glfwInit()) {
-    error = "no display: use --headless (" + glfwReason() + ")";
-    return nullptr;
-  }
+  error = displayProblem();
+  if (!error.empty() || !glfwInit()) return nullptr;
   auto impl = std::make_unique<Impl>();
   impl->window = createWindow(options);
   if (!impl->window) {
@@ -64,6 +68,8 @@ std::unique_ptr<Window> Window::open(const Options& options, std::string& error)
   window->makeCurrent();
   glfwSwapInterval(options.vsync ? 1 : 0);
   glfwSetInputMode(window->impl_->window, GLFW_CURSOR, GLFW_CURSOR_DISABLED);
+  // A key pressed and let go between two slow frames still counts for one.
+  glfwSetInputMode(window->impl_->window, GLFW_STICKY_KEYS, GLFW_TRUE);
   return window;
 }
 

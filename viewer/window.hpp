@@ -9,6 +9,9 @@
 
 namespace vicus::viewer {
 
+/// Whether there is a display to open a window on: empty, or in plain words why not. For asking before a long load.
+std::string displayProblem();
+
 /// A window with a GL context (compatibility profile, 4.5 down to 4.3), its keys and its mouse: W A S D or the arrows,
 /// Q and E down and up in flight, shift fast, F walk or fly, Esc ends. Invariant: while it lives the mouse is its own.
 class Window : public GlContext {

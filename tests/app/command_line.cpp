@@ -10,6 +10,7 @@
 #include "app/figures.hpp"
 #include "app/open_scene.hpp"
 #include "viewer/pictures.hpp"
+#include "viewer/window.hpp"
 
 namespace vicus::app {
 namespace {
@@ -118,6 +119,13 @@ TEST_F(CommandLine, WhatIsNotThereIsOneAndNamed) {
   EXPECT_THAT(err_.str(), HasSubstr("no-such-town.shp"));
   EXPECT_EQ(vicus({"walk", hamlet(), "--headless", "--path", write("p.json", "{\"keys\": 5}")}), kCouldNot);
   EXPECT_THAT(err_.str(), HasSubstr("p.json: keys: is not a list"));
+}
+
+TEST_F(CommandLine, WithoutADisplayTheWayOutIsNamed) {
+  if (!viewer::displayProblem().empty()) {
+    EXPECT_EQ(vicus({"walk", hamlet()}), kCouldNot);
+    EXPECT_THAT(err_.str(), HasSubstr("no display: use --headless"));
+  }
 }
 
 TEST_F(CommandLine, AnUnknownTourIsWrongUsage) {
