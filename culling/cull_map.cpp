@@ -27,6 +27,7 @@ constexpr double kLessHigh = 0.01;
 constexpr double kInGround = 0.02;
 constexpr double kSampleStep = 1;      ///< metres between samples of the terrain along a wall
 constexpr double kSmallestWall = 0.1;  ///< metres long: shorter ones cover no column
+constexpr float kLowestWall = 0.5f;    ///< metres above the building's ground: lower ones hide nothing of note
 constexpr double kFarthestJut = 2;     ///< metres that a storey may stand out over the ground floor
 
 /// Whether `upper` goes on above `lower` as high as `top`: in the same upright plane, over its whole length.
@@ -76,9 +77,7 @@ double jutAbove(const city::BuildingGeometry& type, const city::OccluderLine& lo
 std::vector<OccluderWall> wallsOf(const city::BuildingGeometry& type) {
   std::vector<OccluderWall> walls;
   for (const city::OccluderLine& line : type.occluders) {
-    if (!(glm::distance(line.a, line.b) >= static_cast<float>(kSmallestWall)) || !(line.bottom <= 0) ||
-        !(line.top > 0.5f))
-      continue;
+    if (!(glm::distance(line.a, line.b) >= static_cast<float>(kSmallestWall)) || !(line.bottom <= 0)) continue;
     OccluderWall wall{dvec2(line.a), dvec2(line.b), line.bottom, line.top};
     // Storey upon storey, as often as one goes on above the others.
     for (bool grew = true; grew;) {
@@ -89,7 +88,7 @@ std::vector<OccluderWall> wallsOf(const city::BuildingGeometry& type) {
           wall.top = upper.top, wall.reach = std::max(wall.reach, jut), grew = true;
       }
     }
-    walls.push_back(wall);
+    if (wall.top > kLowestWall) walls.push_back(wall);
   }
   for (uint32_t i = 0; i < walls.size(); ++i)
     for (uint32_t k = 0; k < walls.size(); ++k)
@@ -299,15 +298,27 @@ class Horizon {
     return true;
   }
 
+  /// Whether the slope is below the horizon in all of the columns. Eight at a time without a branch between them, so
+  /// that the compiler compares them at once.
   static bool below(const float* slopes, int first, int end, double slope) {
-    for (int i = first; i < end; ++i)
-      if (!(slope < static_cast<double>(slopes[i]))) return false;
+    float bound = static_cast<float>(slope);
+    if (static_cast<double>(bound) < slope) bound = std::nextafter(bound, std::numeric_limits<float>::infinity());
+    int i = first;
+    for (; i + 8 <= end; i += 8) {
+      int open = 0;
+      for (int k = 0; k < 8; ++k) open += !(bound < slopes[i + k]);
+      if (open > 0) return false;
+    }
+    for (; i < end; ++i)
+      if (!(bound < slopes[i])) return false;
     return true;
   }
 
   /// A stretch from x0 to x1 (in columns of the face) whose slope goes from s0 to s1. Columns that the chain covers
   /// from edge to edge take the lowest slope that it has there.
   void addPiece(int face, double x0, double s0, double x1, double s1) {
+    const Active active = active_[static_cast<size_t>(face)];
+    if (x1 < active.first || x0 > active.end || active.first >= active.end) return beginChain();
     if (!(x1 > x0)) {
       if (column_ >= 0) lowest_ = std::min({lowest_, s0, s1});
       return;
@@ -319,10 +330,13 @@ class Horizon {
       face_ = face;
     }
     const double slope = (s1 - s0) / (x1 - x0);
-    const Active active = active_[static_cast<size_t>(face)];
-    float* const out = row(face);
     double left = s0;
-    while (column_ < perFace_) {
+    if (column_ < active.first) {
+      column_ = active.first, whole_ = x0 <= static_cast<double>(column_);
+      lowest_ = kInfinity, left = s0 + (column_ - x0) * slope;
+    }
+    float* const out = row(face);
+    while (column_ < active.end) {
       const double edge = column_ + 1;
       if (x1 < edge) {
         lowest_ = std::min({lowest_, left, s1});
@@ -330,11 +344,12 @@ class Horizon {
       }
       const double right = x1 == edge ? s1 : s0 + (edge - x0) * slope;
       const auto value = static_cast<float>(std::min({lowest_, left, right}));
-      if (whole_ && column_ >= active.first && column_ < active.end) out[column_] = std::max(out[column_], value);
+      if (whole_) out[column_] = std::max(out[column_], value);
       ++column_;
       whole_ = true, lowest_ = kInfinity, left = right;
       if (x1 == edge) return;
     }
+    beginChain();
   }
 
   int perFace_;

@@ -315,7 +315,7 @@ class SurfaceBuilder {
   double floating() const { return gaps_ > 0 ? gapSum_ / gaps_ : 0; }
 
  private:
-  void addSkirt(const Face& face, const Axes& axes);
+  void addSkirt(const Face& face, const Axes& axes, bool wallHides);
 
   city::BuildingBuilder& builder_;
   const std::vector<glm::dvec3>& points_;
@@ -381,13 +381,15 @@ void SurfaceBuilder::add(const Face& face) {
     builder_.addTriangles(positions, uvs, back, glm::vec3(-face.normal), id(finish));
   }
   if (face.kind == SurfaceKind::Wall) {
-    if (const auto line = occluderOf(face, axes, points_)) builder_.addOccluder(*line);
-    if (options_.groundAt) addSkirt(face, axes);
+    const auto line = occluderOf(face, axes, points_);
+    if (line) builder_.addOccluder(*line);
+    if (options_.groundAt) addSkirt(face, axes, line.has_value());
   }
 }
 
-/// Lengthens a wall's foot to below the ground, in the wall's own plane.
-void SurfaceBuilder::addSkirt(const Face& face, const Axes& axes) {
+/// Lengthens a wall's foot to below the ground, in the wall's own plane. Under a wall that hides what is behind it, the
+/// added piece does too: up to the higher of its two upper corners, above the lower of which the wall itself begins.
+void SurfaceBuilder::addSkirt(const Face& face, const Axes& axes, bool wallHides) {
   const auto& ring = face.rings[0];
   double foot = INFINITY;
   for (const uint32_t i : ring) foot = std::min(foot, points_[i].z);
@@ -410,6 +412,9 @@ void SurfaceBuilder::addSkirt(const Face& face, const Axes& axes) {
     const auto lowered = [&](const glm::dvec3& p) { return glm::vec3(glm::dvec3(glm::dvec2(p), bottom)); };
     builder_.addQuad(lowered(a), lowered(b), glm::vec3(b), glm::vec3(a), id(options_.style.plain));
     if (face.bothSides) builder_.addQuad(lowered(b), lowered(a), glm::vec3(a), glm::vec3(b), id(options_.style.plain));
+    if (wallHides)
+      builder_.addOccluder(
+          {glm::vec2(a), glm::vec2(b), static_cast<float>(bottom), static_cast<float>(std::max(a.z, b.z))});
   }
 }
 
