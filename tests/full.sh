@@ -1,0 +1,16 @@
+#!/usr/bin/env bash
+# The long sweeps of ./test --full: item buffers over many random views. Usage: full.sh BUILD
+set -euo pipefail
+cd "$(dirname "$0")/.."
+vicus=$1/vicus
+data=${VICUS_DATA:-../shared/data}
+scenes=(norvic norwich-2001)
+if [ -d "$data" ]; then
+  scenes+=("$data/perigueux/bdnb_perigeux8.shp" "$data/denhaag/DenHaag_01.city.json")
+else
+  echo "No real cities at hand: their sweeps are left out."
+fi
+for scene in "${scenes[@]}"; do
+  echo "Frustum culling over 1 000 random views of $scene"
+  "$vicus" check "$scene" --views 1000 --size 320x180
+done

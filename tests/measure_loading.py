@@ -1,0 +1,46 @@
+#!/usr/bin/env python3
+"""Seconds from the start of the program to the end of its first frame, and peak memory, cold and cached.
+
+Usage: measure_loading.py VICUS SCENE… ; prints a Markdown table, medians of three runs that take turns.
+"""
+import json
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+ROUNDS = 3
+
+
+def run(vicus, scene, cache):
+    with tempfile.TemporaryDirectory() as out:
+        figures = os.path.join(out, "figures.json")
+        # One frame and its ten warm-up frames at the smallest useful size: loading is what is measured.
+        command = [vicus, "walk", scene, "--headless", "--frames", "1", "--size", "160x90", "--out", out, "--json", figures]
+        environment = dict(os.environ, XDG_CACHE_HOME=cache)
+        begin = time.monotonic()
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=environment)
+        seconds = time.monotonic() - begin
+        with open(figures, encoding="utf-8") as file:
+            return seconds, json.load(file)["memory_mb"]["peak_resident"]
+
+
+def main():
+    vicus, scenes = sys.argv[1], sys.argv[2:]
+    cold = {scene: [] for scene in scenes}
+    cached = {scene: [] for scene in scenes}
+    for _ in range(ROUNDS):
+        for scene in scenes:
+            with tempfile.TemporaryDirectory() as cache:
+                cold[scene].append(run(vicus, scene, cache))
+                cached[scene].append(run(vicus, scene, cache))
+    print("| scene | cold, s | cached, s | peak memory cold, MB |\n|---|---|---|---|")
+    for scene in scenes:
+        median = lambda runs, k: statistics.median(r[k] for r in runs)
+        print(f"| {os.path.basename(scene)} | {median(cold[scene], 0):.2f} | {median(cached[scene], 0):.2f} | {median(cold[scene], 1):.0f} |")
+
+
+if __name__ == "__main__":
+    main()
