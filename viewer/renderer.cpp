@@ -3,11 +3,15 @@
 #include "viewer/renderer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstring>
 #include <osg/Camera>
 #include <osg/Group>
+#include <osg/NodeVisitor>
+#include <osg/Program>
 #include <osgViewer/Viewer>
+#include <set>
 
 #include "city/city.hpp"
 #include "scenegraph/glm_osg.hpp"
@@ -39,7 +43,25 @@ const char* errorInWords(GLenum error) {
   }
 }
 
-/// Rows of `bytes` each, the last first.
+/// Finds programs that did not link: OpenSceneGraph then draws nothing and goes on.
+class ProgramCheck : public osg::NodeVisitor {
+ public:
+  explicit ProgramCheck(osg::State& state) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), state_(state) {}
+  void apply(osg::Node& node) override {
+    const osg::StateSet* set = node.getStateSet();
+    const auto* program =
+        set ? dynamic_cast<const osg::Program*>(set->getAttribute(osg::StateAttribute::PROGRAM)) : nullptr;
+    if (const auto* linked = program ? program->getPCP(state_) : nullptr; linked && !linked->isLinked())
+      unlinked.insert(program->getName());
+    traverse(node);
+  }
+  std::set<std::string> unlinked;
+
+ private:
+  osg::State& state_;
+};
+
+/// Rows of `row` values each, the last first.
 template <typename T>
 void flipRows(std::vector<T>& pixels, size_t row) {
   const size_t rows = pixels.size() / std::max<size_t>(row, 1);
@@ -60,6 +82,7 @@ struct Renderer::Impl {
   Framebuffer drawn, resolved, items, supersampled;
   glm::ivec2 pictureSize{0};
   std::vector<std::string> problems;
+  std::array<bool, 2> programsChecked{};  ///< for each Variant
 
   Impl(GlContext& c, scenegraph::Scene& s, int samples) : context(c), scene(s), multisamples(samples) {}
 
@@ -74,7 +97,7 @@ struct Renderer::Impl {
   }
 
   /// OpenSceneGraph draws what the scene's last `apply` wrote into the bound framebuffer's corner of `size` pixels.
-  void traverse(glm::ivec2 size, double time) {
+  void traverse(glm::ivec2 size, double time, scenegraph::Variant variant) {
     osg::Camera* camera = viewer->getCamera();
     camera->setViewport(0, 0, size.x, size.y);
     camera->setViewMatrix(scenegraph::toOsg(scene.eyeFromWorld()));
@@ -83,6 +106,11 @@ struct Renderer::Impl {
     viewer->eventTraversal();
     viewer->updateTraversal();
     viewer->renderingTraversals();
+    if (programsChecked[static_cast<size_t>(variant)]) return;
+    programsChecked[static_cast<size_t>(variant)] = true;
+    ProgramCheck check(*window->getState());
+    scene.root()->accept(check);
+    for (const std::string& name : check.unlinked) report("shader program " + name + " does not link");
   }
 
   /// Tells OpenSceneGraph what our own GL between frames has set. (`dirtyAllModes` would not do: it takes each mode for
@@ -93,9 +121,12 @@ struct Renderer::Impl {
     for (const GLenum off : {GL_SCISSOR_TEST, GL_DITHER, GL_BLEND}) state.haveAppliedMode(off, GL_FALSE);
     state.haveAppliedMode(GL_MULTISAMPLE, static_cast<osg::StateAttribute::GLModeValue>(glIsEnabled(GL_MULTISAMPLE)));
     state.dirtyAllAttributes();
+    // A new state believes that unit 0 is active, whoever drew in this context before.
+    state.setActiveTextureUnit(0);
+    glActiveTexture(GL_TEXTURE0);
   }
 
-  /// Binds and clears: colour to `background`'s bits (for the picture, the sky draws over all of it), depth to far.
+  /// Makes, binds and clears a framebuffer: ids to 0, colours to black (the sky draws over all of it), depth to far.
   bool begin(Framebuffer& target, glm::ivec2 size, GLenum format, int samples) {
     context.makeCurrent();
     const std::string problem = target.ensure(size, format, samples, true);
@@ -153,6 +184,8 @@ Renderer::Renderer(GlContext& context, scenegraph::Scene& scene, int multisample
 
   osg::Camera* camera = s.viewer->getCamera();
   camera->setClearMask(0);  // `begin` clears
+  // Without it OpenSceneGraph switches off what `begin` switched on; targets of one sample do not care.
+  camera->getOrCreateStateSet()->setMode(GL_MULTISAMPLE, osg::StateAttribute::ON);
   camera->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
   camera->setCullingMode(osg::CullSettings::NO_CULLING);
   camera->setAllowEventFocus(false);
@@ -180,7 +213,7 @@ DrawTimes Renderer::draw(const city::FramePlan& plan) {
   const auto traversalStart = Clock::now();
   const glm::ivec2 size = plan.view.viewport;
   if (!s.begin(s.drawn, size, GL_RGBA8, s.multisamples)) return times;
-  s.traverse(size, plan.view.time);
+  s.traverse(size, plan.view.time, scenegraph::Variant::Colour);
   times.traverse = millisecondsSince(traversalStart);
 
   const auto finishStart = Clock::now();
@@ -227,7 +260,7 @@ ItemBuffer Renderer::drawItems(const city::FramePlan& plan) {
   s.scene.apply(plan, scenegraph::Variant::ItemId);
   const glm::ivec2 size = plan.view.viewport;
   if (!s.begin(s.items, size, GL_R32UI, 0)) return buffer;
-  s.traverse(size, plan.view.time);
+  s.traverse(size, plan.view.time, scenegraph::Variant::ItemId);
 
   buffer.width = size.x, buffer.height = size.y;
   buffer.ids.resize(static_cast<size_t>(size.x) * static_cast<size_t>(size.y));
@@ -255,7 +288,7 @@ Picture Renderer::drawReference(const city::FramePlan& plan) {
       window.offset = window.scale - 1.0 - 2.0 * glm::dvec2(x, y) / glm::dvec2(piece);
       s.scene.apply(plan, scenegraph::Variant::Colour, window);
       if (!s.begin(s.supersampled, kSuper * piece, GL_RGBA8, 0)) return {};
-      s.traverse(kSuper * piece, plan.view.time);
+      s.traverse(kSuper * piece, plan.view.time, scenegraph::Variant::Colour);
       const auto row = static_cast<size_t>(4 * kSuper * piece.x);
       samples.resize(row * static_cast<size_t>(kSuper * piece.y));
       glBindFramebuffer(GL_READ_FRAMEBUFFER, s.supersampled.name());
