@@ -65,6 +65,7 @@ city::Knobs knobs(bool culling = true) {
   city::Knobs all;
   all.declare(planKnobs());
   EXPECT_EQ(all.set("frustum_culling", culling ? 1 : 0), "");
+  EXPECT_EQ(all.set("cull_map", 1), "");
   return all;
 }
 
@@ -298,6 +299,57 @@ TEST(Features, sayWhyAThingIsOff) {
   EXPECT_FALSE(feature(Planner(makeTown({}), knobs(false)), "frustum_culling").on);
   EXPECT_EQ(feature(Planner(city::City{}, knobs()), "frustum_culling").why, "nothing stands in the scene");
   EXPECT_EQ(feature(Planner(makeTown({.terrain = false}), knobs()), "terrain").why, "no height field");
+}
+
+city::City makeWalledTown() {
+  city::City town;
+  city::BuildingGeometry house;
+  house.bounds = {{-6, -5, 0}, {6, 5, 9}};
+  const glm::vec2 corners[] = {{-6, -5}, {6, -5}, {6, 5}, {-6, 5}};
+  for (size_t k = 0; k < 4; ++k) house.occluders.push_back({corners[k], corners[(k + 1) % 4], 0, 9});
+  town.buildingTypes = {house};
+  town.meshes = {meshOf("chapel", {{-4, -4, 0}, {4, 4, 6}})};
+  city::CityParts parts;
+  for (int row = 0; row < 10; ++row)
+    for (int column = 0; column < 10; ++column)
+      parts.buildings.emplace_back().position = glm::dvec3(12 * column, 20 * row, 0);
+  town.monuments.emplace_back().position = {60, 210, 0};
+  EXPECT_EQ(city::finishCity(town, std::move(parts)), 0u);
+  return town;
+}
+
+TEST(Planner, leavesOutWhatTheFrontRowHides) {
+  const city::City town = makeWalledTown();
+  const Planner planner(town, knobs());
+  EXPECT_EQ(planner.steps().back(), "cull map");
+  EXPECT_TRUE(feature(planner, "cull_map").on);
+  EXPECT_EQ(feature(planner, "cull_map").why, "400 walls may hide what is behind");
+  PlannerState state;
+  const city::FramePlan plan = planner.plan(town, viewAt(54, -15, kPi / 2), 0, state);
+  expectCoversOnce(plan.buildings, 100);
+  EXPECT_TRUE(plan.monuments.empty());
+  EXPECT_LE(plan.counts.instancesDrawn, 10u);
+  EXPECT_GT(plan.counts.instancesInFrustum, 50u);
+  EXPECT_EQ(plan.counts.instancesOccluded, plan.counts.instancesInFrustum - plan.counts.instancesDrawn);
+  EXPECT_GT(plan.counts.horizonTests, 0u);
+  EXPECT_GT(plan.counts.occluders, 0u);
+}
+
+TEST(Planner, withoutFrustumCullingTheCullMapWorksAllRound) {
+  const city::City town = makeWalledTown();
+  const Planner planner(town, knobs(false));
+  PlannerState state;
+  const city::FramePlan plan = planner.plan(town, viewAt(54, -15, kPi / 2 + kPi), 0, state);
+  EXPECT_EQ(plan.counts.instancesInFrustum, 101u);
+  EXPECT_LE(plan.counts.instancesDrawn, 12u) << "also behind the viewer";
+}
+
+TEST(Planner, cullMapIsOffWhereItDoesNotPay) {
+  city::Knobs off = knobs();
+  EXPECT_EQ(off.set("cull_map", 0), "");
+  EXPECT_EQ(feature(Planner(makeWalledTown(), off), "cull_map").why, "knob");
+  EXPECT_EQ(feature(Planner(makeTown({.buildings = 14}), knobs()), "cull_map").why, "14 buildings");
+  EXPECT_EQ(feature(Planner(makeTown({}), knobs()), "cull_map").why, "no wall stands in the ground");
 }
 
 TEST(PlanKnobs, areDeclaredWithAllTheirWords) {
