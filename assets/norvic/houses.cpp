@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -663,6 +662,7 @@ HousePlan steppedGable(int variant) {
   s.height = 2.9f;
   s.front = evenly(Fill::Window, 2, w - 0.6f, 1.15f, 0.8f, 2.2f);
   s.back = {{Fill::Window, 0, 1.1f, 0.9f, 2.1f}};
+  if (variant >= 2) s.side = evenly(Fill::Window, 3, p.depth - 1, 0.9f, 0.8f, 2.0f);
   p.storeys.push_back(s);
   p.gable = {{Fill::Loading, 0, 1.2f, 0.5f, 2.0f}};
   p.chimneys = {{0.5f * w - 1.3f, 2.0f}};

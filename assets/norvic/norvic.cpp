@@ -334,6 +334,7 @@ City assemble(const Layout& layout, const Landscape& land, HouseCatalogue houses
   addMonuments(out, land, plans);
   out.environment.sunAzimuth = 3.75;
   out.environment.sunElevation = 0.72;
+  out.environment.hazeDistance = 9000;
   out.tours = makeTours(out, stopsOf(layout.quarters.front(), plans.front(), land));
   say("sorting into tiles", 0);
   city::finishCity(out, std::move(parts));

@@ -154,6 +154,7 @@ city::City generateNorwich2001(uint32_t seed, const Progress& progress) {
   out.streets = joinStreets({&plan, 1}, land, *out.terrain);
   out.environment.sunAzimuth = 3.75;
   out.environment.sunElevation = 0.72;
+  out.environment.hazeDistance = 9000;
 
   // From the sparse west through the dense middle to the sparse north-east.
   TourStops stops;

@@ -469,29 +469,19 @@ class QuarterPlanner {
       const double angle = kTau * i / kPoints;
       ring.push_back(brief_.centre + direction(angle) * edgeRadius(angle));
     }
-    // Cut it where a street passes and where the river does.
-    std::vector<std::vector<dvec2>> stretches(1);
-    const double water = land_.riverHalfWidth() + 1;
-    for (int i = 1; i <= kPoints; ++i) {
-      const dvec2 a = ring[static_cast<size_t>(i - 1)], b = ring[static_cast<size_t>(i)];
-      const double length = glm::length(b - a);
-      std::vector<std::pair<double, double>> cuts;
+    // A gate wherever a street passes; between gates and river a stretch of wall.
+    for (size_t i = 1; i < ring.size(); ++i)
       for (const StreetLine& line : out_.streets)
         for (size_t k = 1; k < line.points.size(); ++k) {
-          const double t = crossing(a, b, line.points[k - 1], line.points[k]);
+          const double t = crossing(ring[i - 1], ring[i], line.points[k - 1], line.points[k]);
           if (t < 0) continue;
-          dvec2 along = glm::normalize(line.points[k] - line.points[k - 1]);
-          const dvec2 at = glm::mix(a, b, t);
-          if (glm::dot(along, at - brief_.centre) < 0) along = -along;
-          out_.gates.push_back({at, along, line.style.width});
+          const dvec2 at = glm::mix(ring[i - 1], ring[i], t);
+          const dvec2 along = glm::normalize(line.points[k] - line.points[k - 1]);
+          out_.gates.push_back({at, glm::dot(along, at - brief_.centre) < 0 ? -along : along, line.style.width});
         }
-      stretches.back().push_back(a);
-      const int steps = static_cast<int>(std::ceil(length / 2));
-      for (int k = 1; k <= steps; ++k) stretches.back().push_back(glm::mix(a, b, static_cast<double>(k) / steps));
-    }
     std::vector<std::vector<dvec2>> open(1);
-    for (const dvec2 p : stretches[0]) {
-      bool free = land_.riverDistance(p) > water;
+    for (const dvec2 p : resample(ring, 2)) {
+      bool free = land_.riverDistance(p) > land_.riverHalfWidth() + 1;
       for (const Gate& g : out_.gates) free = free && glm::length(p - g.position) > 0.5 * g.width + 4.2;
       if (free)
         open.back().push_back(p);
@@ -525,8 +515,8 @@ class QuarterPlanner {
       const double r = kMoundFoot + 15;
       for (const double turn : {0.0, kTau / 16, kTau / 8, 3 * kTau / 16}) {
         // Four rectangles, each a sixteenth further round, cover the mound's circle.
-        const double half = r * std::cos(kTau / 16), long_ = r * std::sin(kTau / 16);
-        occupied_.add({design_.castle, direction(turn), half, long_ + 0.5 * half});
+        const double half = r * std::cos(kTau / 16), breadth = r * std::sin(kTau / 16);
+        occupied_.add({design_.castle, direction(turn), half, breadth + 0.5 * half});
       }
       const dvec2 toMarket = brief_.centre - design_.castle;
       out_.spots.push_back({SpotKind::Castle, design_.castle, std::atan2(toMarket.y, toMarket.x), 0});
