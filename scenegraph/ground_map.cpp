@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <future>
 
@@ -84,8 +85,17 @@ float flatnessAt(const city::HeightField& field, const std::vector<float>& flatn
   return glm::mix(glm::mix(at[0], at[1], t.x), glm::mix(at[field.size.x], at[field.size.x + 1], t.x), t.y);
 }
 
+/// Part of the light on level ground that reaches a pixel.
+glm::vec3 lightThrough(const GroundShade& shade, const Light& light, size_t pixel) {
+  if (shade.size == 0) return glm::vec3(1);
+  const glm::vec3 sun = light.sun * std::max(light.sunDirection.z, 0.0f);
+  const float sunPart = static_cast<float>(shade.sun[pixel]) / 255,
+              skyPart = static_cast<float>(shade.sky[pixel]) / 255;
+  return (sun * sunPart + light.sky * skyPart) / (sun + light.sky);
+}
+
 void paintRow(GroundMap& map, const city::HeightField& field, const city::GroundCover* cover,
-              const std::vector<float>& flatness, int row) {
+              const std::vector<float>& flatness, const GroundShade& shade, const Light& light, int row) {
   const glm::dvec2 step = field.extent() / static_cast<double>(map.size);
   for (int column = 0; column < map.size; ++column) {
     const glm::dvec2 p = field.origin + step * (glm::dvec2(column, row) + 0.5);
@@ -103,9 +113,10 @@ void paintRow(GroundMap& map, const city::HeightField& field, const city::Ground
     paint = mixed(paint, kRock, 0.85f * steep);
     const float mottled = 1 + 0.28f * (broad - 0.5f) + 0.22f * (fine - 0.5f);
     const float warm = 0.10f * (noise(local / 19.0f, 4) - 0.5f);
-    const glm::vec3 albedo = paint.albedo * mottled * glm::vec3(1 + warm, 1, 1 - warm);
-    uint8_t* out =
-        map.rgba.data() + 4 * (static_cast<size_t>(row) * static_cast<size_t>(map.size) + static_cast<size_t>(column));
+    const size_t pixel = static_cast<size_t>(row) * static_cast<size_t>(map.size) + static_cast<size_t>(column);
+    const glm::vec3 albedo =
+        paint.albedo * mottled * glm::vec3(1 + warm, 1, 1 - warm) * lightThrough(shade, light, pixel);
+    uint8_t* out = map.rgba.data() + 4 * pixel;
     for (int k = 0; k < 3; ++k)
       out[k] = static_cast<uint8_t>(255 * std::sqrt(std::clamp(albedo[k], 0.0f, 1.0f)) + 0.5f);
     out[3] = static_cast<uint8_t>(255 * std::clamp(paint.detail, 0.0f, 1.0f) + 0.5f);
@@ -126,7 +137,9 @@ int groundMapSize(glm::dvec2 extent, int largest) {
   return std::clamp(size, 64, std::max(largest, 64));
 }
 
-GroundMap paintGroundMap(const city::HeightField& field, const city::GroundCover* cover, int size) {
+GroundMap paintGroundMap(const city::HeightField& field, const city::GroundCover* cover, int size,
+                         const GroundShade& shade, const Light& light) {
+  assert(shade.size == 0 || shade.size == size);
   GroundMap map;
   if (field.empty()) return map;
   if (cover && (cover->size.x < 1 || cover->size.y < 1)) cover = nullptr;
@@ -138,7 +151,7 @@ GroundMap paintGroundMap(const city::HeightField& field, const city::GroundCover
       flatness[static_cast<size_t>(r) * static_cast<size_t>(field.size.x) + static_cast<size_t>(c)] =
           sampleNormal(field, c, r).z;
   const auto paintRows = [&](int first, int stride) {
-    for (int row = first; row < size; row += stride) paintRow(map, field, cover, flatness, row);
+    for (int row = first; row < size; row += stride) paintRow(map, field, cover, flatness, shade, light, row);
   };
   constexpr int kWorkers = 4;
   std::vector<std::future<void>> workers;

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "city/city.hpp"
+#include "scenegraph/ground_shade.hpp"
+#include "scenegraph/light.hpp"
 
 namespace vicus::scenegraph {
 
@@ -24,7 +26,9 @@ glm::vec4 countrysideTexel();
 int groundMapSize(glm::dvec2 extent, int largest);
 
 /// Paints the map: the cover's classes with softened, slightly ragged borders, mottled; earth and rock where it is
-/// steep. Without cover: grass and meadows. Deterministic, rows in parallel.
-GroundMap paintGroundMap(const city::HeightField& field, const city::GroundCover* cover, int size);
+/// steep; darker where `shade` (of the same size, or of size 0) keeps sun and sky of `light` away. Without cover: grass
+/// and meadows. Deterministic, rows in parallel.
+GroundMap paintGroundMap(const city::HeightField& field, const city::GroundCover* cover, int size,
+                         const GroundShade& shade, const Light& light);
 
 }  // namespace vicus::scenegraph

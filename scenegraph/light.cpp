@@ -21,12 +21,12 @@ Light lightOf(const city::Environment& environment) {
   const float airMass = 1.0f / (std::max(height, 0.0f) + 0.06f);
   const glm::vec3 through = glm::exp(-glm::vec3(0.075f, 0.115f, 0.20f) * airMass);
   const float day = std::clamp(height * 6.0f + 0.25f, 0.02f, 1.0f);
-  light.sun = height > -0.02f ? 1.55f * through : glm::vec3(0);
-  light.sky = day * glm::vec3(0.30f, 0.36f, 0.47f);
+  light.sun = height > -0.02f ? 1.42f * through : glm::vec3(0);
+  light.sky = day * glm::vec3(0.235f, 0.290f, 0.390f);
   light.bounce = 0.16f * glm::vec3(0.95f, 0.9f, 0.75f) * (std::max(height, 0.0f) * light.sun + light.sky);
-  light.zenith = day * glm::vec3(0.10f, 0.21f, 0.46f);
-  light.horizon = day * glm::vec3(0.52f, 0.60f, 0.70f);
-  light.glow = 0.35f * light.sun;
+  light.zenith = day * glm::vec3(0.060f, 0.150f, 0.390f);
+  light.horizon = day * glm::vec3(0.42f, 0.53f, 0.66f);
+  light.glow = 0.22f * light.sun;
   light.hazeDensity = static_cast<float>(1.0 / std::max(haze, 1.0));
   return light;
 }

@@ -35,6 +35,7 @@ constexpr GLuint kMaterialBinding = 2;
 constexpr unsigned kGroundMapUnit = 4;
 constexpr unsigned kGroundDetailUnit = 5;
 constexpr unsigned kRippleUnit = 6;
+constexpr unsigned kCloudUnit = 7;
 
 /// Mip levels of one layer after the other.
 using LayerLevels = std::vector<std::vector<uint8_t>>;

@@ -3,6 +3,7 @@
 #include "scenegraph/scene.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <osg/ClipControl>
 #include <osg/CullFace>
@@ -38,8 +39,10 @@ constexpr city::Knob kKnobs[] = {
 /// The picture over the terrain, null where there is none.
 osg::ref_ptr<osg::Texture2D> groundMapTexture(const city::City& city, int largest) {
   if (!city.terrain || city.terrain->empty()) return nullptr;
-  GroundMap map = paintGroundMap(*city.terrain, city.groundCover ? &*city.groundCover : nullptr,
-                                 groundMapSize(city.terrain->extent(), largest));
+  const Light light = lightOf(city.environment);
+  const int size = groundMapSize(city.terrain->extent(), largest);
+  const GroundMap map = paintGroundMap(*city.terrain, city.groundCover ? &*city.groundCover : nullptr, size,
+                                       shadeGround(city, light.sunDirection, size), light);
   osg::ref_ptr<osg::Image> image = new osg::Image;
   image->allocateImage(map.size, map.size, 1, GL_RGBA, GL_UNSIGNED_BYTE);
   std::copy(map.rgba.begin(), map.rgba.end(), image->data());
@@ -53,18 +56,21 @@ osg::ref_ptr<osg::Texture2D> groundMapTexture(const city::City& city, int larges
   return texture;
 }
 
-/// Grass, earth and stones as factors of the ground map's colour: each texel over the picture's mean, halved.
+/// Grass, earth and stones as factors of the ground map's colour: each texel over its surroundings' mean, halved. What
+/// is coarser than a sixteenth of a repeat belongs to the map: here it would show from the air as a pattern.
 osg::ref_ptr<osg::Texture2DArray> groundDetailTexture(double anisotropy, city::Diagnostics& diagnostics) {
-  constexpr int kSize = 512;
+  constexpr int kSize = 512, kCoarse = 16;
+  std::vector<city::Material> materials;
+  for (const char* name : {"grass", "earth", "cobbles"}) materials.push_back(assets::builtinMaterial(name));
   std::vector<LayerLevels> layers;
-  for (const char* name : {"grass", "earth", "cobbles"}) {
-    LayerLevels levels = mipLevels(assets::materialImage(assets::builtinMaterial(name), diagnostics), kSize);
-    const std::vector<uint8_t> mean = levels.back();
-    for (std::vector<uint8_t>& level : levels)
-      for (size_t i = 0; i < level.size(); ++i)
-        if (i % 4 != 3)
-          level[i] = static_cast<uint8_t>(
-              std::min(255.0f, 127.5f * static_cast<float>(level[i]) / std::max<float>(mean[i % 4], 1)));
+  for (const assets::Image& image : assets::materialImages(materials, diagnostics)) {
+    LayerLevels levels = mipLevels(image, kSize);
+    const std::vector<uint8_t> coarse = levels[std::countr_zero(unsigned{kSize / kCoarse})];
+    for (int size = kSize, at = 0; size > 0; size /= 2, ++at) {
+      std::vector<uint8_t>& level = levels[static_cast<size_t>(at)];
+      level =
+          size <= kCoarse ? std::vector<uint8_t>(level.size(), 128) : overSurroundings(level, size, coarse, kCoarse);
+    }
     layers.push_back(std::move(levels));
   }
   return textureArray("ground detail", kSize, true, std::move(layers), anisotropy);

@@ -192,4 +192,27 @@ bool hasHoles(const assets::Image& image) {
   return false;
 }
 
+std::vector<uint8_t> overSurroundings(std::span<const uint8_t> level, int size, std::span<const uint8_t> coarse,
+                                      int coarseSize) {
+  std::vector<uint8_t> out(level.size());
+  const auto texel = [&](int x, int y, size_t channel) {
+    const auto wrapped = [&](int v) { return static_cast<size_t>((v + coarseSize) % coarseSize); };
+    return static_cast<float>(coarse[4 * (wrapped(y) * static_cast<size_t>(coarseSize) + wrapped(x)) + channel]);
+  };
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      const glm::vec2 at = (glm::vec2(x, y) + 0.5f) * static_cast<float>(coarseSize) / static_cast<float>(size) - 0.5f;
+      const glm::vec2 floor = glm::floor(at), t = at - floor;
+      const int cx = static_cast<int>(floor.x), cy = static_cast<int>(floor.y);
+      const size_t pixel = 4 * (static_cast<size_t>(y) * static_cast<size_t>(size) + static_cast<size_t>(x));
+      for (size_t k = 0; k < 4; ++k) {
+        const float mean = glm::mix(glm::mix(texel(cx, cy, k), texel(cx + 1, cy, k), t.x),
+                                    glm::mix(texel(cx, cy + 1, k), texel(cx + 1, cy + 1, k), t.x), t.y);
+        out[pixel + k] = static_cast<uint8_t>(
+            std::min(255.0f, 128 * static_cast<float>(level[pixel + k]) / std::max(mean, 1.0f) + 0.5f));
+      }
+    }
+  return out;
+}
+
 }  // namespace vicus::scenegraph

@@ -57,4 +57,9 @@ std::vector<std::vector<uint8_t>> mipLevels(const assets::Image& image, int size
 /// True where some pixel's alpha lies under 0.9.
 bool hasHoles(const assets::Image& image);
 
+/// A mip level over a coarser one of the same picture (interpolated, repeating at its edges), halved: 128 where a pixel
+/// is as bright as its surroundings. Sizes are sides in pixels.
+std::vector<uint8_t> overSurroundings(std::span<const uint8_t> level, int size, std::span<const uint8_t> coarse,
+                                      int coarseSize);
+
 }  // namespace vicus::scenegraph

@@ -4,6 +4,8 @@
 
 #include "scenegraph/ground_map.hpp"
 #include "scenegraph/ground_mesh.hpp"
+#include "scenegraph/ground_shade.hpp"
+#include "scenegraph/light.hpp"
 #include "scenegraph/terrain_mesh.hpp"
 #include "scenegraph/tile_table.hpp"
 #include "small_city.hpp"
@@ -186,7 +188,7 @@ TEST(GroundMap, TakesTheColourOfWhatCoversTheGround) {
   cover.kinds.assign(48, city::Ground::Paving);
   const auto mean = [&](city::Ground kind) {
     std::fill(cover.kinds.begin(), cover.kinds.end(), kind);
-    const GroundMap map = paintGroundMap(field, &cover, 64);
+    const GroundMap map = paintGroundMap(field, &cover, 64, {}, lightOf({}));
     glm::dvec4 sum(0);
     for (size_t i = 0; i < map.rgba.size(); ++i) sum[static_cast<int>(i % 4)] += map.rgba[i] / (255.0 * 64 * 64);
     return sum;
@@ -200,7 +202,68 @@ TEST(GroundMap, TakesTheColourOfWhatCoversTheGround) {
 
 TEST(GroundMap, IsTheSameEachTime) {
   const city::HeightField field = bumpyField(21, 21);
-  EXPECT_EQ(paintGroundMap(field, nullptr, 128).rgba, paintGroundMap(field, nullptr, 128).rgba);
+  EXPECT_EQ(paintGroundMap(field, nullptr, 128, {}, lightOf({})).rgba,
+            paintGroundMap(field, nullptr, 128, {}, lightOf({})).rgba);
+}
+
+/// A city of one house of 10 m × 10 m × 10 m in the middle of level ground of 64 m × 64 m.
+city::City oneBlock() {
+  city::City city;
+  city::HeightField field;
+  field.size = {17, 17}, field.spacing = {4, 4}, field.origin = {-32, -32};
+  field.heights.assign(17 * 17, 2.0f);
+  field.updateRange();
+  city.terrain = field;
+  city::BuildingBuilder b("block");
+  b.addBox({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-5, -5, 0}, {5, 5, 10}, 0);
+  city.buildingTypes.push_back(b.finish());
+  city::CityParts parts;
+  parts.buildings.resize(1);
+  parts.buildings[0].position.z = 2;
+  city::finishCity(city, std::move(parts));
+  return city;
+}
+
+TEST(GroundShade, ThrowsAShadowAsLongAsTheHouseIsHigh) {
+  const city::City city = oneBlock();
+  // From the west at 45°: the shadow lies from x = −5 to 15.
+  const GroundShade shade = shadeGround(city, glm::normalize(glm::vec3(-1, 0, 1)), 64);
+  ASSERT_EQ(shade.size, 64);
+  const auto sunAt = [&](int x, int y) {
+    return int{shade.sun[static_cast<size_t>(y + 32) * 64 + static_cast<size_t>(x + 32)]};
+  };
+  EXPECT_EQ(sunAt(10, 0), 0);
+  EXPECT_EQ(sunAt(14, 4), 0);
+  EXPECT_EQ(sunAt(16, 0), 255);
+  EXPECT_EQ(sunAt(-7, 0), 255);
+  EXPECT_EQ(sunAt(10, 6), 255);
+}
+
+TEST(GroundShade, HidesTheSkyAtTheFootOfWallsOnly) {
+  const GroundShade shade = shadeGround(oneBlock(), {0, 0, 1}, 64);
+  const auto skyAt = [&](int x) { return int{shade.sky[static_cast<size_t>(32) * 64 + static_cast<size_t>(x + 32)]}; };
+  EXPECT_LT(skyAt(5), 170);
+  EXPECT_GT(skyAt(5), 90);
+  EXPECT_EQ(skyAt(9), 255);
+}
+
+TEST(GroundShade, IsLeftOutWhereItWouldNotShow) {
+  const city::City city = oneBlock();
+  EXPECT_EQ(shadeGround(city, {1, 0, 0}, 64).size, 0) << "the sun on the horizon";
+  EXPECT_EQ(shadeGround(city, {0, 0, 1}, 16).size, 0) << "pixels of 4 m";
+  EXPECT_EQ(shadeGround(city::City(), {0, 0, 1}, 64).size, 0) << "no terrain";
+}
+
+TEST(GroundMap, IsDarkerInTheShade) {
+  const city::City city = oneBlock();
+  const Light light = lightOf(city.environment);
+  const auto sum = [](const GroundMap& map) {
+    uint64_t total = 0;
+    for (const uint8_t v : map.rgba) total += v;
+    return total;
+  };
+  EXPECT_LT(sum(paintGroundMap(*city.terrain, nullptr, 64, shadeGround(city, light.sunDirection, 64), light)),
+            sum(paintGroundMap(*city.terrain, nullptr, 64, {}, light)));
 }
 
 }  // namespace

@@ -112,6 +112,19 @@ TEST(MipLevels, AnEmptyPictureIsGrey) {
   EXPECT_EQ(levels[0][3], 255);
 }
 
+TEST(OverSurroundings, IsLevelWhereNothingStandsOut) {
+  const std::vector<uint8_t> level(4 * 8 * 8, 90), coarse(4 * 2 * 2, 90);
+  for (const uint8_t v : overSurroundings(level, 8, coarse, 2)) EXPECT_EQ(v, 128);
+}
+
+TEST(OverSurroundings, KeepsWhatStandsOut) {
+  std::vector<uint8_t> level(4 * 8 * 8, 90);
+  level[0] = 45, level[5] = 255;
+  const auto out = overSurroundings(level, 8, std::vector<uint8_t>(4 * 2 * 2, 90), 2);
+  EXPECT_EQ(out[0], 64);
+  EXPECT_EQ(out[5], 255) << "no brighter than twice";
+}
+
 TEST(HasHoles, OnlyWhereAlphaIsLow) {
   EXPECT_FALSE(hasHoles(filled(2, 2, {1, 2, 3, 255})));
   EXPECT_FALSE(hasHoles({}));
