@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The long sweeps of ./test --full: item buffers over many random views. Usage: full.sh BUILD
+# The long sweeps of ./test --full: item buffers over many random views, random jumps over terrain. Usage: full.sh BUILD
 set -euo pipefail
 cd "$(dirname "$0")/.."
 vicus=$1/vicus
@@ -14,3 +14,5 @@ for scene in "${scenes[@]}"; do
   echo "Frustum culling over 1 000 random views of $scene"
   "$vicus" check "$scene" --views 1000 --size 320x180
 done
+echo "ROAM: 10 000 random jumps, published counts on large fields"
+"$1/tests/test_terrain" --gtest_also_run_disabled_tests --gtest_filter='DISABLED_*InFull.*' --gtest_brief=1
