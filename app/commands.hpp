@@ -18,6 +18,8 @@ int walk(const WalkOptions& options, const Surroundings& surroundings);
 int info(const InfoOptions& options, const Surroundings& surroundings);
 /// Every knob.
 int knobs(bool json, const Surroundings& surroundings);
+/// Error against run time: report.html, report.json and report.csv in a folder.
+int report(const ReportCommandOptions& options, const Surroundings& surroundings);
 /// Whether culling loses anything: item buffers and pictures with and without it, over random views.
 int check(const CheckOptions& options, const Surroundings& surroundings);
 

@@ -41,13 +41,20 @@ struct WalkOptions {
   glm::ivec2 size{1280, 720};
   std::string out;  ///< folder for pictures; empty: not given
   std::optional<size_t> every;
-  std::string json;  ///< file for the figures; empty: none
+  std::string json;   ///< file for the figures; empty: none
+  std::string trace;  ///< file for the stages of every frame; empty: none
 };
 
 struct InfoOptions {
   SceneOptions scene;
   bool json = false;
   bool graph = false;
+};
+
+struct ReportCommandOptions {
+  SceneOptions scene;
+  std::string out;  ///< folder
+  bool quick = false;
 };
 
 struct CheckOptions {

@@ -12,8 +12,9 @@ struct Parsed {
   WalkOptions walk;
   InfoOptions info;
   CheckOptions check;
+  ReportCommandOptions report;
   bool knobsJson = false;
-  std::string shift[3];  ///< of walk, info and check
+  std::string shift[4];  ///< of walk, info, check and report
   std::string walkSize, checkSize;
   std::vector<std::string> views;
 };
@@ -66,6 +67,8 @@ void addWalk(CLI::App& app, Parsed& p) {
   walk.add_option("--out", p.walk.out, "folder for pictures (PNG)")->type_name("DIR");
   walk.add_option("--every", p.walk.every, "write every K-th frame only")->check(CLI::PositiveNumber)->type_name("K");
   walk.add_option("--json", p.walk.json, "write the figures of the run")->type_name("FILE");
+  walk.add_option("--trace", p.walk.trace, "write the stages of every frame for chrome://tracing or Perfetto")
+      ->type_name("FILE");
 }
 
 void addOthers(CLI::App& app, Parsed& p) {
@@ -76,6 +79,13 @@ void addOthers(CLI::App& app, Parsed& p) {
 
   CLI::App& knobs = *app.add_subcommand("knobs", "every knob: default, unit, what too small and too large do");
   knobs.add_flag("--json", p.knobsJson, "as JSON");
+
+  CLI::App& report = *app.add_subcommand("report", "error against run time: every technique measured, as a web page");
+  addScene(report, p.report.scene, p.shift[3]);
+  report.add_option("-o,--out", p.report.out, "folder for report.html, report.json and report.csv")
+      ->required()
+      ->type_name("DIR");
+  report.add_flag("--quick", p.report.quick, "small pictures and few frames: about a minute for a town");
 
   CLI::App& check = *app.add_subcommand(
       "check", "compares random views with and without the techniques: no pixel of a building may be lost");
@@ -89,7 +99,7 @@ void addOthers(CLI::App& app, Parsed& p) {
 
 /// Completes the options from their texts; what is wrong, or an empty text.
 std::string complete(Parsed& p) {
-  SceneOptions* scenes[] = {&p.walk.scene, &p.info.scene, &p.check.scene};
+  SceneOptions* scenes[] = {&p.walk.scene, &p.info.scene, &p.check.scene, &p.report.scene};
   for (size_t k = 0; k < std::size(scenes); ++k) {
     if (scenes[k]->inputs.empty()) scenes[k]->inputs = {"norvic"};
     if (p.shift[k].empty()) continue;
@@ -150,6 +160,7 @@ int run(std::span<const std::string> arguments, const Surroundings& surroundings
 
   if (app.got_subcommand("walk")) return walk(parsed.walk, surroundings);
   if (app.got_subcommand("info")) return info(parsed.info, surroundings);
+  if (app.got_subcommand("report")) return report(parsed.report, surroundings);
   if (app.got_subcommand("check")) return check(parsed.check, surroundings);
   return knobs(parsed.knobsJson, surroundings);
 }

@@ -9,6 +9,7 @@
 #include "app/figures.hpp"
 #include "app/interrupt.hpp"
 #include "app/open_scene.hpp"
+#include "report/stage_trace.hpp"
 #include "viewer/navigator.hpp"
 #include "viewer/path_file.hpp"
 #include "viewer/pictures.hpp"
@@ -257,7 +258,7 @@ int walk(const WalkOptions& options, const Surroundings& surroundings) {
   };
   hooks.pause = [&] { guide.pause(); };
   if (screen->window) hooks.windowSize = [&] { return screen->window->size(); };
-  hooks.keepRecords = !guide.free() || !options.json.empty();
+  hooks.keepRecords = !guide.free() || !options.json.empty() || !options.trace.empty();
   hooks.drawn = [&](size_t frame, const viewer::FrameRecord&) {
     if (guide.countedFrames() > 0)
       console.progress("drawing", static_cast<double>(frame + 1) / static_cast<double>(guide.countedFrames()));
@@ -276,6 +277,10 @@ int walk(const WalkOptions& options, const Surroundings& surroundings) {
   if (written > 0)
     console.say(std::to_string(written) + (written == 1 ? " picture in " : " pictures in ") +
                 std::filesystem::absolute(pictures.folder).lexically_normal().string());
+  if (!options.trace.empty()) {
+    const std::string problem = writeText(options.trace, report::chromeTrace(report::tracedFrames(records)));
+    if (!problem.empty()) console.error(problem), code = kCouldNot;
+  }
   if (!options.json.empty()) {
     const std::vector<plan::FeatureReport> features = featuresOf(planner, scene->knobs);
     const std::string problem = writeText(options.json, walkJson({*scene, features, records, rendererName, size,

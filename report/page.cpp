@@ -110,7 +110,7 @@ std::string summary(const ReportData& report) {
 
 /// The median as a bar with its interval, on a scale that all rows of a table share.
 std::string medianBar(const Estimate& e, double longest) {
-  constexpr double kBarWidth = 120;
+  constexpr double kBarWidth = 90;
   const double scale = kBarWidth / longest;
   return fmt::format(
       "<svg class=\"bar\" width=\"{0}\" height=\"12\" aria-hidden=\"true\"><rect y=\"2\" width=\"{1:.1f}\" "

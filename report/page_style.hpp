@@ -13,7 +13,7 @@ inline constexpr std::string_view kPageStyle = R"css(
   --code: "JetBrains Mono", "SF Mono", Consolas, "DejaVu Sans Mono", monospace; }
 * { box-sizing: border-box; }
 html { background: var(--paper); color: var(--ink); font: 17px/1.55 var(--text); }
-body { max-width: 1180px; margin: 0 auto; padding: 48px 32px 96px; }
+body { max-width: 1360px; margin: 0 auto; padding: 48px 32px 96px; }
 header { border-bottom: 3px double var(--ink); padding-bottom: 18px; margin-bottom: 30px; }
 .eyebrow { font: 600 13px/1.4 var(--figures); letter-spacing: .12em; text-transform: uppercase; color: var(--accent);
   margin: 0; }
@@ -35,7 +35,7 @@ p, li { max-width: 74ch; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; font: 13.5px/1.35 var(--figures); font-variant-numeric: tabular-nums; width: 100%;
   background: var(--panel); }
-th, td { padding: 7px 10px; text-align: right; border-bottom: 1px solid var(--line); white-space: nowrap; }
+th, td { padding: 6px 8px; text-align: right; border-bottom: 1px solid var(--line); white-space: nowrap; }
 th { font-weight: 600; color: var(--soft); vertical-align: bottom; border-bottom: 2px solid var(--ink); font-size: 12.5px;
   white-space: normal; }
 th small { display: block; font-weight: 400; font-size: 11px; }
@@ -70,7 +70,7 @@ svg.plot { display: block; width: 100%; height: auto; font-family: var(--figures
 .legend { font: 13px/1.7 var(--figures); color: var(--soft); margin: 6px 0 4px; max-width: none; }
 .legend span { margin-right: 18px; white-space: nowrap; }
 .legend i { display: inline-block; width: 11px; height: 11px; margin-right: 6px; border-radius: 2px; }
-.columns { display: grid; grid-template-columns: repeat(auto-fit, minmax(480px, 1fr)); gap: 22px; }
+.columns { display: grid; grid-template-columns: repeat(auto-fit, minmax(460px, 1fr)); gap: 22px; }
 .triple { display: grid; grid-template-columns: repeat(3, 1fr); gap: 8px; }
 .triple img { width: 100%; display: block; image-rendering: auto; }
 .triple span { font: 12px var(--figures); color: var(--soft); }

@@ -11,7 +11,7 @@ namespace vicus::report {
 namespace {
 
 // Sizes in SVG units, which are pixels at full width.
-constexpr double kWidth = 760, kHeight = 400;
+constexpr double kWidth = 600, kHeight = 380, kBarsWidth = 980;
 constexpr double kLeft = 64, kRight = 20, kTop = 16, kBottom = 52;
 constexpr double kZeroRow = 30;  // height of the row of zeros below the plot
 constexpr double kLetter = 6.4;  // mean width of a letter of the labels
@@ -222,8 +222,8 @@ std::string stackedBars(const std::vector<StackedBar>& bars, const std::string& 
 
   constexpr double kBar = 18, kStep = 27, kRoomForTotal = 78;
   const double left = std::min(300.0, 14 + 7.2 * static_cast<double>(longestName));
-  const double scale = (kWidth - left - kRoomForTotal) / longest;
-  std::string out = fmt::format("<svg class=\"plot\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">", kWidth,
+  const double scale = (kBarsWidth - left - kRoomForTotal) / longest;
+  std::string out = fmt::format("<svg class=\"plot\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">", kBarsWidth,
                                 kStep * static_cast<double>(bars.size()) + 6, escaped(title));
   double y = 4;
   for (const StackedBar& bar : bars) {

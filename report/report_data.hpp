@@ -56,6 +56,7 @@ struct RunFigures {
   viewer::Percentiles frame;          ///< milliseconds
   Estimate frameMedian;               ///< milliseconds
   Named<viewer::Percentiles> stages;  ///< milliseconds, in the order run
+  Named<double> leastStages;          ///< milliseconds, the quickest frame's: noise only adds to it
   Named<viewer::MeanMax> counts;      ///< tiles, …, triangles, draw_calls, texture_binds, …
   MemoryFigures memory;
   ErrorFigures error;

@@ -17,6 +17,20 @@ nlohmann::ordered_json bar(const std::string& name, const char* category, double
 
 }  // namespace
 
+std::vector<TracedFrame> tracedFrames(std::span<const viewer::FrameRecord> records) {
+  std::vector<TracedFrame> frames;
+  double start = 0;
+  for (const viewer::FrameRecord& record : records) {
+    TracedFrame& frame = frames.emplace_back();
+    frame.start = start;
+    for (const viewer::StageSample& stage : record.stages) {
+      frame.stages.push_back({std::string(stage.name), stage.milliseconds});
+      start += stage.milliseconds;
+    }
+  }
+  return frames;
+}
+
 std::string chromeTrace(std::span<const TracedFrame> frames) {
   auto events = nlohmann::ordered_json::array();
   events.push_back({{"name", "process_name"}, {"ph", "M"}, {"pid", 1}, {"args", {{"name", "vicus"}}}});

@@ -132,16 +132,18 @@ struct RunTime {
   viewer::Percentiles& frame;
   Estimate& median;
   Named<viewer::Percentiles>& stages;
+  Named<double>& leastStages;
 };
 template <typename Visitor>
 void fields(Visitor& visit, RunTime& t) {
   visit("frame", t.frame), visit("frame_median", t.median), visit("stages", t.stages);
+  visit("least_stages", t.leastStages);
 }
 template <typename Visitor>
 void fields(Visitor& visit, RunFigures& r) {
   visit("name", r.name), visit("path", r.path), visit("frames", r.frames);
   visit("knobs", r.knobs), visit("features", r.features);
-  RunTime time{r.frame, r.frameMedian, r.stages};
+  RunTime time{r.frame, r.frameMedian, r.stages, r.leastStages};
   visit("run_time_ms", time);
   visit("counts", r.counts), visit("memory_mb", r.memory), visit("error", r.error);
 }

@@ -30,6 +30,16 @@ TEST(ChromeTrace, BadTimesBecomeZero) {
   EXPECT_EQ(trace["traceEvents"].back()["dur"], 0);
 }
 
+TEST(TracedFrames, FollowEachOtherWithoutAGap) {
+  std::vector<viewer::FrameRecord> records(2);
+  records[0].stages = {{"input", 1}, {"traverse", 4}};
+  records[1].stages = {{"input", 2}};
+  const auto frames = tracedFrames(records);
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_EQ(frames[1].start, 5);
+  EXPECT_EQ(frames[0].stages[1].name, "traverse");
+}
+
 TEST(ChromeTrace, NoFrames) {
   EXPECT_TRUE(nlohmann::json::accept(chromeTrace({})));
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "assets/norvic/norvic.hpp"
 #include "small_cities.hpp"
 #include "viewer/distance_map.hpp"
 #include "viewer/surroundings.hpp"
@@ -289,6 +290,14 @@ TEST(MakeTours, TheSceneHasTheFirstWord) {
   EXPECT_GT(tours[2].keys.size(), 2u) << "a tour without keys is made anew";
   EXPECT_EQ(findTour(tours, "procession"), &tours[4]);
   EXPECT_EQ(findTour(tours, "dance"), nullptr);
+}
+
+TEST(MakeTours, StreetsOfAWholeTownAreWalkable) {
+  City norwich = assets::generateNorwich2001();
+  norwich.tours.clear();
+  const Tour street = makeTours(norwich)[0];
+  expectWalkable(norwich, street);
+  EXPECT_GT(durationOf(street), 100);
 }
 
 TEST(RandomView, IsFiniteEverywhereAndRepeats) {

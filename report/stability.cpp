@@ -1,0 +1,18 @@
+#include "report/stability.hpp"
+
+#include <iterator>
+
+#include "culling/stability.hpp"
+
+namespace vicus::report {
+
+std::vector<city::StabilityRow> allStability(bool /*quick*/) {
+  std::vector<city::StabilityRow> rows;
+  const auto add = [&](std::vector<city::StabilityRow> more) {
+    rows.insert(rows.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+  };
+  add(culling::frustumStability());
+  return rows;
+}
+
+}  // namespace vicus::report
