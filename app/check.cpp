@@ -29,6 +29,8 @@ int check(const CheckOptions& options, const Surroundings& surroundings) {
   console.report(diagnostics);
   viewer::Renderer renderer(*context, graph, static_cast<int>(scene->knobs["viewer.multisamples"]));
 
+  finishCache(*scene, console);
+
   // One planner as asked and one with every technique off, each with what it remembers between views.
   const plan::Planner planner(scene->city, scene->knobs);
   const plan::Planner everything(scene->city, withoutTechniques(scene->knobs));

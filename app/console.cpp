@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <mutex>
 #include <ostream>
 #include <vector>
 
@@ -34,6 +35,7 @@ struct Console::Impl {
       : err(s.err), terminal(s.terminal), log("vicus", std::make_shared<spdlog::sinks::ostream_sink_mt>(s.err, true)) {
     log.set_pattern("%v");
   }
+  std::recursive_mutex mutex;  ///< `report` says many things in one go
   std::ostream& err;
   bool terminal;
   spdlog::logger log;
@@ -53,21 +55,25 @@ Console::~Console() {
 }
 
 void Console::say(std::string_view text) {
+  const std::lock_guard lock(impl_->mutex);
   impl_->wipe();
   impl_->log.info("{}", text);
 }
 
 void Console::warn(std::string_view text) {
+  const std::lock_guard lock(impl_->mutex);
   impl_->wipe();
   impl_->log.warn("warning: {}", text);
 }
 
 void Console::error(std::string_view text) {
+  const std::lock_guard lock(impl_->mutex);
   impl_->wipe();
   impl_->log.error("error: {}", text);
 }
 
 void Console::progress(std::string_view stage, double fraction) {
+  const std::lock_guard lock(impl_->mutex);
   Impl& p = *impl_;
   const int percent = std::isfinite(fraction) ? static_cast<int>(100 * std::clamp(fraction, 0.0, 1.0)) : 0;
   const bool newStage = stage != p.stage;
@@ -82,12 +88,14 @@ void Console::progress(std::string_view stage, double fraction) {
 }
 
 void Console::progressDone() {
+  const std::lock_guard lock(impl_->mutex);
   impl_->wipe();
   impl_->stage.clear();
   impl_->percent = -1;
 }
 
 void Console::report(const city::Diagnostics& diagnostics) {
+  const std::lock_guard lock(impl_->mutex);
   constexpr size_t kShown = 10;
   struct Kind {
     std::vector<const city::Diagnostic*> messages;

@@ -19,7 +19,7 @@ struct Surroundings {
   std::string cacheFolder;  ///< empty: no cache
 };
 
-/// Speaks on Surroundings::err. Invariant: a line of progress never runs into a message.
+/// Speaks on Surroundings::err, from any thread. Invariant: a line of progress never runs into a message.
 class Console {
  public:
   explicit Console(const Surroundings& surroundings);

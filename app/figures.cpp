@@ -81,6 +81,8 @@ std::string walkJson(const WalkResult& result) {
   for (const auto& [name, p] : times.stages) out["run_time_ms"]["stages"][name] = json(p);
   for (const auto& [name, c] : viewer::countsOf(result.records))
     out["counts"][name] = {{"mean", rounded(c.mean)}, {"max", c.max}};
+  out["loading_s"] = {{"city", rounded(result.scene.seconds)}, {"first_frame", rounded(result.firstFrameSeconds)}};
+  out["from_cache"] = result.scene.fromCache;
   out["memory_mb"] = {{"peak_resident", megabytes(result.peakResidentBytes)}, {"gpu", megabytes(result.gpuBytes)}};
   return text(out);
 }

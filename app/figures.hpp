@@ -18,6 +18,7 @@ struct WalkResult {
   std::span<const viewer::FrameRecord> records;
   std::string renderer;
   glm::ivec2 size{0};
+  double firstFrameSeconds = 0;  ///< from the program's start to the end of its first frame
   uint64_t gpuBytes = 0;
   uint64_t peakResidentBytes = 0;
 };

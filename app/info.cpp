@@ -18,11 +18,13 @@ int info(const InfoOptions& options, const Surroundings& surroundings) {
     console.progressDone();
     console.report(diagnostics);
     surroundings.out << graph.describeGraph() << std::flush;
+    finishCache(*scene, console);
     return kDone;
   }
   const plan::Planner planner(scene->city, scene->knobs);
   const std::vector<plan::FeatureReport> features = featuresOf(planner, scene->knobs);
   surroundings.out << (options.json ? infoJson(*scene, features) : infoText(*scene, features)) << std::flush;
+  finishCache(*scene, console);
   return kDone;
 }
 

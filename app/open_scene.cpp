@@ -30,6 +30,12 @@ std::optional<city::Knobs> knobsFrom(const std::vector<std::string>& settings, C
   return knobs;
 }
 
+std::string sceneName(const SceneOptions& options) {
+  std::string name;
+  for (const std::string& input : options.inputs) name += (name.empty() ? "" : " ") + input;
+  return name;
+}
+
 std::optional<OpenScene> openScene(const SceneOptions& options, const Surroundings& surroundings, Console& console,
                                    int& code) {
   std::optional<city::Knobs> knobs = knobsFrom(options.knobs, console);
@@ -39,7 +45,7 @@ std::optional<OpenScene> openScene(const SceneOptions& options, const Surroundin
   }
   OpenScene scene;
   scene.knobs = std::move(*knobs);
-  for (const std::string& input : options.inputs) scene.name += (scene.name.empty() ? "" : " ") + input;
+  scene.name = sceneName(options);
 
   assets::LoadOptions load;
   load.elevation = options.elevation;
@@ -62,6 +68,7 @@ std::optional<OpenScene> openScene(const SceneOptions& options, const Surroundin
   scene.city = std::move(*result.city);
   scene.diagnostics = std::move(result.diagnostics);
   scene.fromCache = result.fromCache;
+  scene.cached = std::move(result.cached);
 
   char seconds[32];
   std::snprintf(seconds, sizeof seconds, "%.2f", scene.seconds);
@@ -70,6 +77,10 @@ std::optional<OpenScene> openScene(const SceneOptions& options, const Surroundin
               std::to_string(scene.city.monuments.size()) + " monuments, " + std::to_string(scene.city.trees.size()) +
               " trees in " + seconds + " s" + (scene.fromCache ? " from the cache" : ""));
   return scene;
+}
+
+void finishCache(OpenScene& scene, Console& console) {
+  if (scene.cached.valid()) console.report(scene.cached.get());
 }
 
 city::Knobs withoutTechniques(const city::Knobs& knobs) {

@@ -1,6 +1,7 @@
 /// From what the user names to a city with its knobs and features.
 #pragma once
 
+#include <future>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,7 +22,8 @@ struct OpenScene {
   city::Knobs knobs;
   city::Diagnostics diagnostics;
   bool fromCache = false;
-  double seconds = 0;  ///< that loading took
+  double seconds = 0;                     ///< that loading took
+  std::future<city::Diagnostics> cached;  ///< the writing of the cache, which may go on
 };
 
 /// All knobs of the program at their defaults.
@@ -30,9 +32,15 @@ city::Knobs allKnobs();
 /// The knobs with the user's settings; an empty result with messages on the console where a setting is wrong.
 std::optional<city::Knobs> knobsFrom(const std::vector<std::string>& settings, Console& console);
 
+/// The inputs as given.
+std::string sceneName(const SceneOptions& options);
+
 /// Loads the city, telling progress and messages. On failure nothing, with the exit code in `code`.
 std::optional<OpenScene> openScene(const SceneOptions& options, const Surroundings& surroundings, Console& console,
                                    int& code);
+
+/// Waits until the cache is written and says what went wrong with it.
+void finishCache(OpenScene& scene, Console& console);
 
 /// The same knobs with every technique off.
 city::Knobs withoutTechniques(const city::Knobs& knobs);

@@ -45,6 +45,7 @@ int report(const ReportCommandOptions& options, const Surroundings& surroundings
   const std::optional<report::ReportData> data =
       report::runReport(scene->city, scene->knobs, scene->diagnostics, settings, error);
   console.progressDone();
+  finishCache(*scene, console);
   if (!data) error = error.empty() ? "the report could not be made" : error;
   for (const std::string& text : {error, problem})
     if (!text.empty()) console.error(text), code = kCouldNot;

@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <future>
 #include <set>
 #include <thread>
 
@@ -87,19 +88,17 @@ struct Screen {
   viewer::Window* window = nullptr;  ///< null offscreen
 };
 
-std::optional<Screen> openScreen(const WalkOptions& options, const OpenScene& scene, Console& console) {
+Screen openScreen(const WalkOptions& options, const city::Knobs& knobs, std::string& error) {
   Screen screen;
-  std::string error;
   if (options.headless) {
     screen.context = viewer::makeOffscreenContext(error);
   } else {
-    auto window = viewer::Window::open({"Vicus – " + scene.name, options.size, scene.knobs.on("viewer.vsync")}, error);
+    auto window =
+        viewer::Window::open({"Vicus – " + sceneName(options.scene), options.size, knobs.on("viewer.vsync")}, error);
     screen.window = window.get();
     screen.context = std::move(window);
   }
-  if (screen.context) return screen;
-  console.error(error);
-  return std::nullopt;
+  return screen;
 }
 
 /// The tour that the user named, `street` where none is (a free walk begins at its start); in `code` the exit code
@@ -225,26 +224,38 @@ int walk(const WalkOptions& options, const Surroundings& surroundings) {
     console.error(problem);
     return kCouldNot;
   }
-  int code = kDone;
-  std::optional<OpenScene> scene = openScene(options.scene, surroundings, console, code);
-  if (!scene) return code;
-  const std::optional<city::Tour> tour = chooseTour(options, scene->city, console, code);
-  if (!tour) return code;
+  const std::optional<city::Knobs> knobs = knobsFrom(options.scene.knobs, console);
+  if (!knobs) return kWrongUsage;
 
-  // The screen, the scene graph and the renderer; the city's buffers reach the card with the first frame.
-  const std::optional<Screen> screen = openScreen(options, *scene, console);
-  if (!screen) return kCouldNot;
-  const plan::Planner planner(scene->city, scene->knobs);
+  // The city is read while the screen opens: starting a driver takes as long as reading a small town.
+  int code = kDone;
+  std::future<std::optional<OpenScene>> opening =
+      std::async(std::launch::async, [&] { return openScene(options.scene, surroundings, console, code); });
+  std::string screenProblem;
+  const Screen screen = openScreen(options, *knobs, screenProblem);
   city::Diagnostics diagnostics;
-  scenegraph::Scene graph(scene->city, scene->knobs, diagnostics,
-                          [&](std::string_view stage, double fraction) { console.progress(stage, fraction); });
+  scenegraph::GroundDetail groundDetail = scenegraph::paintGroundDetail(diagnostics);
+  std::optional<OpenScene> scene = opening.get();
+  if (!screen.context) console.error(screenProblem);
+  if (!scene || !screen.context) return scene ? kCouldNot : code;
+  std::future<std::optional<city::Tour>> choosing =
+      std::async(std::launch::async, [&] { return chooseTour(options, scene->city, console, code); });
+
+  // The scene graph and the renderer; the city's buffers reach the card with the first frame.
+  screen.context->makeCurrent();
+  const plan::Planner planner(scene->city, scene->knobs);
+  scenegraph::Scene graph(
+      scene->city, scene->knobs, diagnostics,
+      [&](std::string_view stage, double fraction) { console.progress(stage, fraction); }, std::move(groundDetail));
+  const std::optional<city::Tour> tour = choosing.get();
+  if (!tour) return code;
   console.progressDone();
   console.report(diagnostics);
-  viewer::Renderer renderer(*screen->context, graph, static_cast<int>(scene->knobs["viewer.multisamples"]));
-  const std::string rendererName = screen->context->rendererName();
+  viewer::Renderer renderer(*screen.context, graph, static_cast<int>(scene->knobs["viewer.multisamples"]));
+  const std::string rendererName = screen.context->rendererName();
 
   // The walk.
-  Guide guide(options, *scene, *tour, screen->window);
+  Guide guide(options, *scene, *tour, screen.window);
   const PictureChoice pictures = choosePictures(options, guide.countedFrames());
   std::string pictureProblem;
   size_t written = 0;
@@ -256,8 +267,13 @@ int walk(const WalkOptions& options, const Surroundings& surroundings) {
     if (next) size = next->view.viewport;
     return next;
   };
-  hooks.pause = [&] { guide.pause(); };
-  if (screen->window) hooks.windowSize = [&] { return screen->window->size(); };
+  double firstFrame = 0;  // seconds from the program's start to the end of the first frame
+  size_t frames = 0;
+  hooks.pause = [&] {
+    if (++frames == 2) firstFrame = viewer::secondsSinceProcessStart();
+    guide.pause();
+  };
+  if (screen.window) hooks.windowSize = [&] { return screen.window->size(); };
   hooks.keepRecords = !guide.free() || !options.json.empty() || !options.trace.empty();
   hooks.drawn = [&](size_t frame, const viewer::FrameRecord&) {
     if (guide.countedFrames() > 0)
@@ -267,10 +283,11 @@ int walk(const WalkOptions& options, const Surroundings& surroundings) {
     if (pictureProblem.empty()) ++written;
   };
   const std::vector<viewer::FrameRecord> records =
-      viewer::runFrames({scene->city, planner, graph, renderer, *screen->context}, hooks);
+      viewer::runFrames({scene->city, planner, graph, renderer, *screen.context}, hooks);
   console.progressDone();
 
   // What came of it.
+  finishCache(*scene, console);
   for (const std::string& problem : renderer.problems()) console.error(problem), code = kCouldNot;
   if (!pictureProblem.empty()) console.error(pictureProblem), code = kCouldNot;
   tellTimes(records, rendererName, console);
@@ -283,8 +300,9 @@ int walk(const WalkOptions& options, const Surroundings& surroundings) {
   }
   if (!options.json.empty()) {
     const std::vector<plan::FeatureReport> features = featuresOf(planner, scene->knobs);
-    const std::string problem = writeText(options.json, walkJson({*scene, features, records, rendererName, size,
-                                                                  graph.gpuBytes(), viewer::peakResidentBytes()}));
+    const std::string problem =
+        writeText(options.json, walkJson({*scene, features, records, rendererName, size, firstFrame, graph.gpuBytes(),
+                                          viewer::peakResidentBytes()}));
     if (!problem.empty()) console.error(problem), code = kCouldNot;
   }
   return code;

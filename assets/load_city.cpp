@@ -190,32 +190,46 @@ CachePlace cachePlaceOf(std::span<const std::string> inputs, const LoadOptions& 
   return {fs::path(options.cacheFolder) / (name + "-" + scene.text() + ".sqlite"), content.text()};
 }
 
+/// An open cache and what it has to say.
+struct CacheFile {
+  explicit CacheFile(const fs::path& file) : cache(file, diagnostics) {}
+  city::Diagnostics diagnostics;
+  BlobCache cache;
+};
+
 /// The city as it was when these files were last read, else as they are read now.
 LoadResult loadThroughCache(std::span<const std::string> inputs, const LoadOptions& options) {
   constexpr std::string_view kKind = "city";
   if (options.progress) options.progress("cache", 0);
-  city::Diagnostics ofCache;
   const CachePlace place = cachePlaceOf(inputs, options);
-  BlobCache cache(place.file, ofCache);
-  if (const auto bytes = cache.read(kKind, place.hash, kBuilderVersion)) {
-    if (auto cached = decodeCity(*bytes)) {
-      LoadResult result{std::move(cached->city), std::move(cached->diagnostics), true};
-      result.diagnostics.messages.insert(result.diagnostics.messages.end(), ofCache.messages.begin(),
-                                         ofCache.messages.end());
-      return result;
+  auto file = std::make_unique<CacheFile>(place.file);
+  LoadResult result;
+  if (const auto bytes = file->cache.read(kKind, place.hash, kBuilderVersion)) {
+    if (auto cached = decodeCity(*bytes))
+      result = {std::move(cached->city), std::move(cached->diagnostics), true, {}};
+    else
+      file->diagnostics.warn(place.file.string(), "", "the city in the cache is damaged and is made anew");
+  }
+  std::string fresh;
+  if (!result.fromCache) {
+    result = loadFiles(inputs, options);
+    if (result.city) {
+      CachedCity whole{std::move(*result.city), std::move(result.diagnostics)};
+      fresh = encodeCity(whole);
+      result.city = std::move(whole.city);
+      result.diagnostics = std::move(whole.diagnostics);
     }
-    ofCache.warn(place.file.string(), "", "the city in the cache is damaged and is made anew");
   }
-  LoadResult result = loadFiles(inputs, options);
-  if (result.city) {
-    if (options.progress) options.progress("cache", 0.5);
-    CachedCity cached{std::move(*result.city), std::move(result.diagnostics)};
-    cache.write(kKind, place.hash, kBuilderVersion, encodeCity(cached));
-    result.city = std::move(cached.city);
-    result.diagnostics = std::move(cached.diagnostics);
+  auto& messages = result.diagnostics.messages;
+  messages.insert(messages.end(), file->diagnostics.messages.begin(), file->diagnostics.messages.end());
+  if (!fresh.empty()) {
+    file->diagnostics = {};
+    result.cached = std::async(std::launch::async,
+                               [file = std::move(file), fresh = std::move(fresh), hash = place.hash, kind = kKind] {
+                                 file->cache.write(kind, hash, kBuilderVersion, fresh);
+                                 return std::move(file->diagnostics);
+                               });
   }
-  result.diagnostics.messages.insert(result.diagnostics.messages.end(), ofCache.messages.begin(),
-                                     ofCache.messages.end());
   return result;
 }
 

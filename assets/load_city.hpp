@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <future>
 #include <optional>
 #include <span>
 #include <string>
@@ -30,6 +31,9 @@ struct LoadResult {
   std::optional<city::City> city;  ///< nothing where there was nothing that could be shown
   city::Diagnostics diagnostics;
   bool fromCache = false;
+  /// Where the city is written to the cache: that goes on while it is shown. Gives what there is to say of it; waited
+  /// for where it is dropped.
+  std::future<city::Diagnostics> cached;
 };
 
 /// Inputs are `norvic`, `norvic:8000`, `norwich-2001`, or paths of footprints (any OGR format), CityJSON and elevation

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 #include <future>
+#include <limits>
 
 #include "city/random.hpp"
 #include "scenegraph/terrain_mesh.hpp"
@@ -37,35 +38,82 @@ float lattice(int x, int y, uint32_t seed) {
   return static_cast<float>(h >> 8) * (1.0f / 16777216.0f);
 }
 
-/// Value noise in 0 … 1 with features about one unit wide.
-float noise(glm::vec2 p, uint32_t seed) {
-  const glm::vec2 cell = glm::floor(p);
-  glm::vec2 t = p - cell;
-  t = t * t * (3.0f - 2.0f * t);
-  const int x = static_cast<int>(cell.x), y = static_cast<int>(cell.y);
-  const float south = glm::mix(lattice(x, y, seed), lattice(x + 1, y, seed), t.x);
-  const float north = glm::mix(lattice(x, y + 1, seed), lattice(x + 1, y + 1, seed), t.x);
-  return glm::mix(south, north, t.y);
-}
+/// Value noise in 0 … 1 with features about one unit wide, along a line from west to east: the lattice is looked up
+/// only where the line enters another cell.
+class RowNoise {
+ public:
+  RowNoise(float wavelength, uint32_t seed, float y) : scale_(1 / wavelength), seed_(seed) {
+    const float row = std::floor(y * scale_);
+    t_ = smooth(y * scale_ - row);
+    row_ = static_cast<int>(row);
+  }
+  float operator()(float x) {
+    const float column = std::floor(x * scale_);
+    if (const int cell = static_cast<int>(column); cell != column_) {
+      west_ = cell == column_ + 1 ? east_ : onLine(cell);
+      east_ = onLine(cell + 1);
+      column_ = cell;
+    }
+    return glm::mix(west_, east_, smooth(x * scale_ - column));
+  }
+
+ private:
+  static float smooth(float t) { return t * t * (3.0f - 2.0f * t); }
+  float onLine(int column) const {
+    return glm::mix(lattice(column, row_, seed_), lattice(column, row_ + 1, seed_), t_);
+  }
+  float scale_, t_ = 0, west_ = 0, east_ = 0;
+  uint32_t seed_;
+  int row_ = 0, column_ = std::numeric_limits<int>::min() / 2;
+};
 
 Paint mixed(const Paint& a, const Paint& b, float t) {
   return {glm::mix(a.albedo, b.albedo, t), glm::mix(a.detail, b.detail, t)};
 }
 
-city::Ground kindAt(const city::GroundCover& cover, glm::dvec2 p) {
+size_t cellAt(const city::GroundCover& cover, glm::dvec2 p) {
   const glm::dvec2 cell = (p - cover.origin) / cover.spacing;
   const int column = std::clamp(static_cast<int>(std::floor(cell.x)), 0, cover.size.x - 1);
   const int row = std::clamp(static_cast<int>(std::floor(cell.y)), 0, cover.size.y - 1);
-  return cover.kinds[static_cast<size_t>(row) * static_cast<size_t>(cover.size.x) + static_cast<size_t>(column)];
+  return static_cast<size_t>(row) * static_cast<size_t>(cover.size.x) + static_cast<size_t>(column);
 }
 
-/// The cover's paint about a place: four looks half a cell about it, at a place that noise has moved a little.
-Paint coverAt(const city::GroundCover& cover, glm::dvec2 p) {
-  const glm::vec2 local(p - cover.origin);
-  const glm::vec2 ragged(noise(local / 2.3f, 11) - 0.5f, noise(local / 2.3f, 12) - 0.5f);
-  const glm::dvec2 at = p + glm::dvec2(ragged) * (0.9 * std::max(cover.spacing, 1.0));
+city::Ground kindAt(const city::GroundCover& cover, glm::dvec2 p) {
+  return cover.kinds[cellAt(cover, p)];
+}
+
+constexpr double kLook = 0.35;   ///< how far from a place its paint is looked up, cells
+constexpr double kRagged = 0.9;  ///< width of the band in which noise moves a place, cells and at least metres
+
+/// For each cell of the cover whether all that a place in it can look up is of one kind.
+std::vector<uint8_t> plainCells(const city::GroundCover& cover) {
+  const int reach = static_cast<int>(std::ceil(kLook + kRagged / 2 * std::max(cover.spacing, 1.0) / cover.spacing));
+  std::vector<uint8_t> alongRows(cover.kinds.size()), plain(cover.kinds.size());
+  const auto at = [&](int column, int row) {
+    return static_cast<size_t>(row) * static_cast<size_t>(cover.size.x) + static_cast<size_t>(column);
+  };
+  for (int row = 0; row < cover.size.y; ++row)
+    for (int column = 0; column < cover.size.x; ++column) {
+      bool same = true;
+      for (int c = std::max(column - reach, 0); c <= std::min(column + reach, cover.size.x - 1); ++c)
+        same &= cover.kinds[at(c, row)] == cover.kinds[at(column, row)];
+      alongRows[at(column, row)] = same;
+    }
+  for (int row = 0; row < cover.size.y; ++row)
+    for (int column = 0; column < cover.size.x; ++column) {
+      bool same = true;
+      for (int r = std::max(row - reach, 0); r <= std::min(row + reach, cover.size.y - 1); ++r)
+        same &= alongRows[at(column, r)] && cover.kinds[at(column, r)] == cover.kinds[at(column, row)];
+      plain[at(column, row)] = same;
+    }
+  return plain;
+}
+
+/// The cover's paint about a place: four looks about it, at a place that noise (-0.5 to 0.5) has moved a little.
+Paint coverAt(const city::GroundCover& cover, glm::dvec2 p, glm::dvec2 ragged) {
+  const glm::dvec2 at = p + ragged * (kRagged * std::max(cover.spacing, 1.0));
   Paint sum{glm::vec3(0), 0};
-  const double reach = 0.35 * cover.spacing;
+  const double reach = kLook * cover.spacing;
   for (const glm::dvec2 offset : {glm::dvec2(-1, -0.4), glm::dvec2(0.4, -1), glm::dvec2(1, 0.4), glm::dvec2(-0.4, 1)}) {
     const Paint& paint = kPaints[static_cast<size_t>(kindAt(cover, at + reach * offset)) % kPaints.size()];
     sum.albedo += 0.25f * paint.albedo;
@@ -94,28 +142,52 @@ glm::vec3 lightThrough(const GroundShade& shade, const Light& light, size_t pixe
   return (sun * sunPart + light.sky * skyPart) / (sun + light.sky);
 }
 
-void paintRow(GroundMap& map, const city::HeightField& field, const city::GroundCover* cover,
-              const std::vector<float>& flatness, const GroundShade& shade, const Light& light, int row) {
+/// What all rows of a map are painted from.
+struct Painting {
+  const city::HeightField& field;
+  const city::GroundCover* cover;  ///< may be null
+  std::vector<uint8_t> plain;      ///< for each cell of the cover
+  std::vector<float> flatness;     ///< for each sample of the field
+  const GroundShade& shade;
+  const Light& light;
+};
+
+void paintRow(GroundMap& map, const Painting& from, int row) {
+  const city::HeightField& field = from.field;
   const glm::dvec2 step = field.extent() / static_cast<double>(map.size);
+  const double y = step.y * (row + 0.5);
+  const auto noiseOf = [&](float wavelength, uint32_t seed) {
+    return RowNoise(wavelength, seed, static_cast<float>(y));
+  };
+  RowNoise broadNoise = noiseOf(47, 1), fineNoise = noiseOf(6.1f, 2), meadowNoise = noiseOf(160, 3);
+  RowNoise warmNoise = noiseOf(19, 4);
+  // The cover's edges are ragged the same way wherever its picture begins.
+  const double originX = from.cover ? field.origin.x - from.cover->origin.x : 0;
+  const double originY = from.cover ? field.origin.y - from.cover->origin.y : 0;
+  RowNoise raggedX(2.3f, 11, static_cast<float>(y + originY)), raggedY(2.3f, 12, static_cast<float>(y + originY));
   for (int column = 0; column < map.size; ++column) {
-    const glm::dvec2 p = field.origin + step * (glm::dvec2(column, row) + 0.5);
-    const glm::vec2 local(p - field.origin);
-    const float broad = noise(local / 47.0f, 1), fine = noise(local / 6.1f, 2);
+    const double eastward = step.x * (column + 0.5);
+    const glm::dvec2 p = field.origin + glm::dvec2(eastward, y);
+    const auto x = static_cast<float>(eastward);
+    const float broad = broadNoise(x), fine = fineNoise(x);
     Paint paint;
-    if (cover) {
-      paint = coverAt(*cover, p);
+    if (from.cover) {
+      const size_t cell = cellAt(*from.cover, p);
+      const auto coverX = static_cast<float>(eastward + originX);
+      paint = from.plain[cell] ? kPaints[static_cast<size_t>(from.cover->kinds[cell]) % kPaints.size()]
+                               : coverAt(*from.cover, p, glm::dvec2(raggedX(coverX) - 0.5f, raggedY(coverX) - 0.5f));
     } else {
-      const float meadow = glm::smoothstep(0.45f, 0.62f, 0.7f * noise(local / 160.0f, 3) + 0.3f * broad);
+      const float meadow = glm::smoothstep(0.45f, 0.62f, 0.7f * meadowNoise(x) + 0.3f * broad);
       paint = mixed(kPaints[static_cast<size_t>(city::Ground::Grass)],
                     kPaints[static_cast<size_t>(city::Ground::Field)], 0.6f * meadow);
     }
-    const float steep = glm::smoothstep(0.12f, 0.35f, 1 - flatnessAt(field, flatness, p) + 0.08f * (fine - 0.5f));
+    const float steep = glm::smoothstep(0.12f, 0.35f, 1 - flatnessAt(field, from.flatness, p) + 0.08f * (fine - 0.5f));
     paint = mixed(paint, kRock, 0.85f * steep);
     const float mottled = 1 + 0.28f * (broad - 0.5f) + 0.22f * (fine - 0.5f);
-    const float warm = 0.10f * (noise(local / 19.0f, 4) - 0.5f);
+    const float warm = 0.10f * (warmNoise(x) - 0.5f);
     const size_t pixel = static_cast<size_t>(row) * static_cast<size_t>(map.size) + static_cast<size_t>(column);
     const glm::vec3 albedo =
-        paint.albedo * mottled * glm::vec3(1 + warm, 1, 1 - warm) * lightThrough(shade, light, pixel);
+        paint.albedo * mottled * glm::vec3(1 + warm, 1, 1 - warm) * lightThrough(from.shade, from.light, pixel);
     uint8_t* out = map.rgba.data() + 4 * pixel;
     for (int k = 0; k < 3; ++k)
       out[k] = static_cast<uint8_t>(255 * std::sqrt(std::clamp(albedo[k], 0.0f, 1.0f)) + 0.5f);
@@ -145,13 +217,14 @@ GroundMap paintGroundMap(const city::HeightField& field, const city::GroundCover
   if (cover && (cover->size.x < 1 || cover->size.y < 1)) cover = nullptr;
   map.size = size;
   map.rgba.resize(4 * static_cast<size_t>(size) * static_cast<size_t>(size));
-  std::vector<float> flatness(field.heights.size());
+  Painting from{field, cover, {}, std::vector<float>(field.heights.size()), shade, light};
+  if (cover) from.plain = plainCells(*cover);
   for (int r = 0; r < field.size.y; ++r)
     for (int c = 0; c < field.size.x; ++c)
-      flatness[static_cast<size_t>(r) * static_cast<size_t>(field.size.x) + static_cast<size_t>(c)] =
+      from.flatness[static_cast<size_t>(r) * static_cast<size_t>(field.size.x) + static_cast<size_t>(c)] =
           sampleNormal(field, c, r).z;
   const auto paintRows = [&](int first, int stride) {
-    for (int row = first; row < size; row += stride) paintRow(map, field, cover, flatness, shade, light, row);
+    for (int row = first; row < size; row += stride) paintRow(map, from, row);
   };
   constexpr int kWorkers = 4;
   std::vector<std::future<void>> workers;

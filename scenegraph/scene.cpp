@@ -56,13 +56,15 @@ osg::ref_ptr<osg::Texture2D> groundMapTexture(const city::City& city, int larges
   return texture;
 }
 
+constexpr int kGroundDetailSize = 512;  // texels
+
 /// Grass, earth and stones as factors of the ground map's colour: each texel over its surroundings' mean, halved. What
 /// is coarser than a sixteenth of a repeat belongs to the map: here it would show from the air as a pattern.
-osg::ref_ptr<osg::Texture2DArray> groundDetailTexture(double anisotropy, city::Diagnostics& diagnostics) {
-  constexpr int kSize = 512, kCoarse = 16;
+GroundDetail detailOfGround(city::Diagnostics& diagnostics) {
+  constexpr int kSize = kGroundDetailSize, kCoarse = 16;
   std::vector<city::Material> materials;
   for (const char* name : {"grass", "earth", "cobbles"}) materials.push_back(assets::builtinMaterial(name));
-  std::vector<LayerLevels> layers;
+  GroundDetail detail;
   for (const assets::Image& image : assets::materialImages(materials, diagnostics)) {
     LayerLevels levels = mipLevels(image, kSize);
     const std::vector<uint8_t> coarse = levels[std::countr_zero(unsigned{kSize / kCoarse})];
@@ -71,9 +73,9 @@ osg::ref_ptr<osg::Texture2DArray> groundDetailTexture(double anisotropy, city::D
       level =
           size <= kCoarse ? std::vector<uint8_t>(level.size(), 128) : overSurroundings(level, size, coarse, kCoarse);
     }
-    layers.push_back(std::move(levels));
+    detail.layers.push_back(std::move(levels));
   }
-  return textureArray("ground detail", kSize, true, std::move(layers), anisotropy);
+  return detail;
 }
 
 /// Uniforms of the shared shader files, set once (light) or each frame (view).
@@ -156,6 +158,10 @@ std::span<const city::Knob> sceneKnobs() {
   return kKnobs;
 }
 
+GroundDetail paintGroundDetail(city::Diagnostics& diagnostics) {
+  return detailOfGround(diagnostics);
+}
+
 struct Scene::Impl {
   osg::ref_ptr<osg::Group> root = new osg::Group;
   std::vector<std::unique_ptr<Feature>> features;
@@ -169,7 +175,7 @@ struct Scene::Impl {
 };
 
 Scene::Scene(const city::City& city, const city::Knobs& knobs, city::Diagnostics& diagnostics,
-             const assets::Progress& progress)
+             const assets::Progress& progress, GroundDetail groundDetail)
     : impl_(std::make_unique<Impl>()) {
   Impl& s = *impl_;
   s.root->setName("root");
@@ -212,7 +218,9 @@ Scene::Scene(const city::City& city, const city::Knobs& knobs, city::Diagnostics
     s.sharedBinds += textures->arrays.size();
     s.sharedBytes += textures->bytes;
   }
-  const auto detail = groundDetailTexture(anisotropy, diagnostics);
+  if (groundDetail.layers.empty()) groundDetail = paintGroundDetail(diagnostics);
+  const auto detail =
+      textureArray("ground detail", kGroundDetailSize, true, std::move(groundDetail.layers), anisotropy);
   states.setTextureAttribute(kGroundDetailUnit, detail);
   states.addUniform(new osg::Uniform("groundDetail", static_cast<int>(kGroundDetailUnit)));
   states.addUniform(new osg::Uniform("detailRepeats", static_cast<float>(1 / kGroundDetailMetres)));

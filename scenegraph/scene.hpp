@@ -43,13 +43,20 @@ struct PictureWindow {
 /// Knobs of drawing (state_ordering, textures.budget_mb, textures.anisotropy, …).
 std::span<const city::Knob> sceneKnobs();
 
+/// Pictures that every scene needs, whatever its city: 512 × 512 texels of grass, earth and cobbles with all their
+/// levels. They can be painted before the city is there.
+struct GroundDetail {
+  std::vector<std::vector<std::vector<uint8_t>>> layers;  ///< of each, of each level: rgba bytes
+};
+GroundDetail paintGroundDetail(city::Diagnostics& diagnostics);
+
 /// Builds the graph for a city once, then writes each frame's plan into it. Invariant: it draws exactly what the plan
 /// lists and decides nothing. Only features that the city has are made. Needs no current GL context until the first
-/// frame.
+/// frame. A ground detail that is empty is painted here.
 class Scene {
  public:
   Scene(const city::City& city, const city::Knobs& knobs, city::Diagnostics& diagnostics,
-        const assets::Progress& progress = {});
+        const assets::Progress& progress = {}, GroundDetail detail = {});
   ~Scene();
 
   osg::Group* root() const;

@@ -24,4 +24,7 @@ MeanMax meanMax(std::span<const double> values);
 /// The most memory that the process has had resident so far, bytes; 0 where the system does not tell.
 uint64_t peakResidentBytes();
 
+/// Seconds since the system started this process, to 0.01 s; 0 where the system does not tell.
+double secondsSinceProcessStart();
+
 }  // namespace vicus::viewer
