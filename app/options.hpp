@@ -62,6 +62,9 @@ struct CheckOptions {
   size_t views = 100;
   uint32_t seed = 1;
   glm::ivec2 size{320, 180};
+  bool street = false;             ///< at eye level only
+  size_t picturesEvery = 1;        ///< pictures are compared in each so many views; 0: in none
+  std::vector<ViewOption> single;  ///< these views instead of random ones
 };
 
 /// "1280x720" (or with ×); nothing where it is no such text or a side is not 1 to 16384.

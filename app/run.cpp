@@ -16,7 +16,7 @@ struct Parsed {
   bool knobsJson = false;
   std::string shift[4];  ///< of walk, info, check and report
   std::string walkSize, checkSize;
-  std::vector<std::string> views;
+  std::vector<std::string> views, checkViews;
 };
 
 void addScene(CLI::App& command, SceneOptions& scene, std::string& shift) {
@@ -95,6 +95,14 @@ void addOthers(CLI::App& app, Parsed& p) {
       ->type_name("N");
   check.add_option("--seed", p.check.seed, "another seed gives other views")->type_name("S");
   check.add_option("--size", p.checkSize, "of the pictures, 320x180 by default")->type_name("WxH");
+  check.add_flag("--street", p.check.street, "at eye level only, none from the air");
+  check
+      .add_option("--pictures", p.check.picturesEvery,
+                  "compare pictures too in each K-th view, 1 by default; 0: item buffers alone")
+      ->type_name("K");
+  check.add_option("--view", p.checkViews, "this view instead of random ones, as for walk; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("X,Y,Z,HEADING,PITCH[,FOV]");
 }
 
 /// Completes the options from their texts; what is wrong, or an empty text.
@@ -115,12 +123,15 @@ std::string complete(Parsed& p) {
     if (!parsed) return "--size takes WIDTHxHEIGHT, each 1 to 16384, not '" + *text + "'";
     *size = *parsed;
   }
-  for (const std::string& text : p.views) {
-    std::string error;
-    const auto view = parseView(text, error);
-    if (!view) return error;
-    p.walk.views.push_back(*view);
-  }
+  const std::pair<const std::vector<std::string>*, std::vector<ViewOption>*> views[] = {
+      {&p.views, &p.walk.views}, {&p.checkViews, &p.check.single}};
+  for (const auto& [texts, parsed] : views)
+    for (const std::string& text : *texts) {
+      std::string error;
+      const auto view = parseView(text, error);
+      if (!view) return error;
+      parsed->push_back(*view);
+    }
   return {};
 }
 

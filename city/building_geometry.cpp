@@ -4,6 +4,8 @@
 #include <cassert>
 #include <utility>
 
+#include "city/watertight.hpp"
+
 namespace vicus::city {
 
 BuildingBuilder::BuildingBuilder(std::string name) {
@@ -149,6 +151,11 @@ void BuildingBuilder::setFootprint(std::vector<std::vector<glm::vec2>> rings) {
 
 BuildingGeometry BuildingBuilder::finish() {
   BuildingGeometry& g = geometry_;
+  // Walls, roofs and what goes into them hide together what is behind; what sticks out only stands before them.
+  std::vector<std::vector<uint32_t>*> closed;
+  for (Piece& p : pieces_)
+    if (p.target == Target::Cut || p.target == Target::Opening) closed.push_back(&p.indices);
+  makeWatertight(g.vertices, closed);
   const auto append = [&g](Range& range, const Piece& p) {
     if (range.count == 0) range.first = static_cast<uint32_t>(g.indices.size());
     g.indices.insert(g.indices.end(), p.indices.begin(), p.indices.end());

@@ -180,6 +180,11 @@ double largerOf(dvec2 p) {
 
 class Horizon {
  public:
+  /// Which ends of a wall no other wall of its chain goes on from.
+  struct FreeEnds {
+    bool first = false, last = false;
+  };
+
   /// Columns that matter in a face, from `first` up to and without `end`.
   struct Active {
     int first = 0, end = 0;
@@ -242,8 +247,9 @@ class Horizon {
   void beginChain() { column_ = -1; }
 
   /// The next wall of a chain, counter-clockwise from p to q relative to the eye, its top `top` above the eye; of it
-  /// only what is not deeper than `limit`.
-  void addWall(dvec2 p, dvec2 q, double top, double limit) {
+  /// only what is not deeper than `limit`. The chain's free ends are drawn in by what the drawn ones may stray: between
+  /// houses whose walls end in one line there may be a slit.
+  void addWall(dvec2 p, dvec2 q, double top, double limit, FreeEnds free) {
     for (int face = firstFace(p), k = 0; k < kFaces; ++k, face = (face + 1) % kFaces) {
       const dvec2 a = turned(p, face), b = turned(q, face);
       // The part of a → b where |y| ≤ x; on the diagonals u is −1 or 1 exactly.
@@ -265,7 +271,12 @@ class Horizon {
       if (!(s.x > 0) || !(e.x > 0)) return beginChain();
       const double u0 = start == from && from > 0 ? -1.0 : std::clamp(s.y / s.x, -1.0, 1.0);
       const double u1 = end == to && to < 1 ? 1.0 : std::clamp(e.y / e.x, -1.0, 1.0);
-      addPiece(face, position(u0), top / s.x, position(u1), top / e.x);
+      double x0 = position(u0), x1 = position(u1), s0 = top / s.x, s1 = top / e.x;
+      const double rise = x1 > x0 ? (s1 - s0) / (x1 - x0) : 0;
+      const auto stray = [&](double depth) { return (kStray / depth + 2 * sway_) * (0.5 * perFace_); };
+      if (free.first && start == 0) x0 += stray(s.x), s0 += rise * stray(s.x);
+      if (free.last && end == 1) x1 -= stray(e.x), s1 -= rise * stray(e.x);
+      if (x1 > x0 || !(free.first || free.last)) addPiece(face, x0, s0, x1, s1);
       if (end < to) beginChain();
       if (to == 1) return;
     }
@@ -661,12 +672,15 @@ class Walk {
     const city::Instance& instance = city_.buildings.instances[building];
     const Range range = occluders_.ofType[instance.geometry];
     horizon_.beginChain();
-    for (; i != kNone && placed_[i].faces && !placed_[i].done; i = occluders_.walls[range.first + i].previous) {
+    const auto goesOn = [&](uint32_t k) { return k != kNone && placed_[k].faces && !placed_[k].done; };
+    for (bool first = true; goesOn(i); first = false) {
       const OccluderWall& wall = occluders_.walls[range.first + i];
       placed_[i].done = true;
       horizon_.addWall(placed_[i].b, placed_[i].a,
-                       instance.position.z + static_cast<double>(wall.top) - kLessHigh - eye_.z, limit_);
+                       instance.position.z + static_cast<double>(wall.top) - kLessHigh - eye_.z, limit_,
+                       {first, !goesOn(wall.previous)});
       ++stats_.occluders;
+      i = wall.previous;
     }
   }
 

@@ -21,7 +21,7 @@ using city::FramePlan;
 constexpr city::Knob kPlanKnobs[] = {
     {"frustum_culling", 1, 0, 1, "on/off", "Leaves out what lies outside the picture's edges.",
      "off: everything is drawn, also behind the viewer", "on is the most"},
-    {"cull_map", 0, 0, 1, "on/off", "Leaves out what stands hidden behind houses.",
+    {"cull_map", 1, 0, 1, "on/off", "Leaves out what stands hidden behind houses.",
      "off: everything within the picture's edges is drawn", "on is the most"},
     {"cull_map.size", 8192, 64, 65536, "columns all round",
      "Into how many directions the horizon that houses make is divided.", "narrow houses hide nothing, more is drawn",

@@ -11,7 +11,7 @@ else
   echo "No real cities at hand: their sweeps are left out."
 fi
 for scene in "${scenes[@]}"; do
-  echo "Frustum culling over 1 000 random views of $scene"
+  echo "Culling over 1 000 random views of $scene"
   "$vicus" check "$scene" --views 1000 --size 320x180
 done
 echo "ROAM: 10 000 random jumps, published counts on large fields"

@@ -32,6 +32,7 @@ ItemCheck checkItems(const city::City& city, const city::FramePlan& plan, const 
     if (lastIsPlanned) continue;
     ++out.lostPixels;
     out.lostItems.push_back(item);
+    out.lostAt.emplace_back(static_cast<int>(p) % everything.width, static_cast<int>(p) / everything.width);
   }
   std::sort(out.lostItems.begin(), out.lostItems.end());
   out.lostItems.erase(std::unique(out.lostItems.begin(), out.lostItems.end()), out.lostItems.end());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <vector>
 
 #include "city/city.hpp"
@@ -15,6 +16,7 @@ struct ItemCheck {
   /// Falsely culled: the full buffer shows a building or monument that the plan does not list. Must be 0.
   uint64_t lostPixels = 0;
   std::vector<uint32_t> lostItems;  ///< their item ids, ascending, each once
+  std::vector<glm::ivec2> lostAt;   ///< the pixels, row by row from the top
   uint64_t shownPixels = 0;         ///< pixels of the full buffer that show a building or monument
   /// Pixels whose ids differ for whatever reason: also a missing tree or piece of ground, or another depth order.
   uint64_t differingPixels = 0;

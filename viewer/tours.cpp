@@ -547,6 +547,10 @@ const Tour* findTour(const std::vector<Tour>& tours, std::string_view name) {
   return it == tours.end() ? nullptr : &*it;
 }
 
+city::ViewPose randomStreetView(const City& city, city::Random& random) {
+  return standSomewhere(city, random);
+}
+
 city::ViewPose randomView(const City& city, city::Random& random) {
   return random.below(2) == 0 ? standSomewhere(city, random) : hoverOver(city, random);
 }

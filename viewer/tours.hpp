@@ -55,4 +55,7 @@ const city::Tour* findTour(const std::vector<city::Tour>& tours, std::string_vie
 /// same view.
 city::ViewPose randomView(const city::City& city, city::Random& random);
 
+/// Those of them at eye level only.
+city::ViewPose randomStreetView(const city::City& city, city::Random& random);
+
 }  // namespace vicus::viewer

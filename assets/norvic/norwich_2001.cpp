@@ -83,7 +83,7 @@ void placeHouses(QuarterPlan& plan, const HouseCatalogue& houses, city::Random& 
     const double due = kTriangles * static_cast<double>(plan.plots.size() + 1) / kHouses;
     double best = 1e18;
     uint32_t chosen = 0;
-    for (int k = 0; k < 3; ++k) {
+    for (int k = 0; k < 5; ++k) {
       const uint32_t v = random.below(static_cast<uint32_t>(houses.variants.size()));
       const double off = std::abs(
           triangles + static_cast<double>(houses.geometry[houses.variants[v].geometry].fullDetailTriangles()) - due);

@@ -37,12 +37,13 @@ bool within(Range inner, Range outer) {
 
 TEST(BuildingBuilder, fullDetailIsOneRunAndTheFlatSurfacesThatDifferFollow) {
   const BuildingGeometry g = wallWithWindow();
-  EXPECT_EQ(g.fullDetail, (Range{0, 7 * 6}));  // four pieces of wall, sill, pane, roof
-  EXPECT_EQ(g.fullDetailTriangles(), 14u);
-  EXPECT_EQ(g.indices.size(), 8u * 6);
+  // Four pieces of wall, sill, pane, roof; the hole's corners split the pieces beside it, two of theirs the roof.
+  EXPECT_EQ(g.fullDetailTriangles(), 7u * 2 + 4 + 2);
+  EXPECT_EQ(g.fullDetail, (Range{0, 20 * 3}));
+  EXPECT_EQ(g.indices.size(), 22u * 3);
   ASSERT_EQ(g.planes.size(), 2u);
-  EXPECT_EQ(g.planes[0].cut, (Range{0, 24}));
-  EXPECT_EQ(g.planes[0].flat, (Range{42, 6}));
+  EXPECT_EQ(g.planes[0].cut, (Range{0, 12 * 3}));
+  EXPECT_EQ(g.planes[0].flat, (Range{20 * 3, 6}));
   EXPECT_EQ(g.planes[1].flat, g.planes[1].cut) << "a plane without openings is flat already";
 }
 

@@ -325,7 +325,7 @@ TEST(Planner, leavesOutWhatTheFrontRowHides) {
   EXPECT_TRUE(feature(planner, "cull_map").on);
   EXPECT_EQ(feature(planner, "cull_map").why, "400 walls may hide what is behind");
   PlannerState state;
-  const city::FramePlan plan = planner.plan(town, viewAt(54, -15, kPi / 2), 0, state);
+  const city::FramePlan plan = planner.plan(town, viewAt(50, -15, kPi / 2), 0, state);
   expectCoversOnce(plan.buildings, 100);
   EXPECT_TRUE(plan.monuments.empty());
   EXPECT_LE(plan.counts.instancesDrawn, 10u);
@@ -339,7 +339,7 @@ TEST(Planner, withoutFrustumCullingTheCullMapWorksAllRound) {
   const city::City town = makeWalledTown();
   const Planner planner(town, knobs(false));
   PlannerState state;
-  const city::FramePlan plan = planner.plan(town, viewAt(54, -15, kPi / 2 + kPi), 0, state);
+  const city::FramePlan plan = planner.plan(town, viewAt(50, -15, kPi / 2 + kPi), 0, state);
   EXPECT_EQ(plan.counts.instancesInFrustum, 101u);
   EXPECT_LE(plan.counts.instancesDrawn, 12u) << "also behind the viewer";
 }
