@@ -22,12 +22,12 @@ struct Paint {
 
 /// In the order of city::Ground.
 constexpr std::array<Paint, city::kGroundKinds> kPaints = {{
-    {{0.105f, 0.150f, 0.045f}, 0.0f},   // grass
+    {{0.124f, 0.136f, 0.064f}, 0.0f},   // grass
     {{0.190f, 0.180f, 0.075f}, 0.25f},  // field
     {{0.200f, 0.150f, 0.100f}, 0.5f},   // earth
     {{0.230f, 0.200f, 0.165f}, 1.0f},   // street
     {{0.290f, 0.270f, 0.240f}, 1.0f},   // paving
-    {{0.110f, 0.125f, 0.050f}, 0.1f},   // garden
+    {{0.118f, 0.122f, 0.060f}, 0.1f},   // garden
     {{0.165f, 0.150f, 0.085f}, 0.5f},   // bank
     {{0.070f, 0.075f, 0.055f}, 0.5f},   // water's bed
 }};

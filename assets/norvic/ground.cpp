@@ -142,6 +142,7 @@ city::GroundCover paintGround(const Landscape& land, std::span<const QuarterPlan
     painter.polygon(q.outline, Ground::Grass);
     for (const PlanRect& r : q.gardens) painter.rect(r, Ground::Garden);
     for (const PlanRect& r : q.grass) painter.rect(r, Ground::Grass);
+    for (const PlanRect& r : q.trodden) painter.rect(r, Ground::Earth);
   }
   if (land.hasRiver()) {
     const double half = land.riverHalfWidth() + land.bankWidth();

@@ -107,6 +107,7 @@ void placeHouses(QuarterPlan& plan, const HouseCatalogue& houses, city::Random& 
     plot.variant = chosen;
     plot.seed = random.bits();
     plan.plots.push_back(plot);
+    plan.trodden.push_back(troddenAbout(ground));
     plan.gardens.push_back({centre + into * (0.5 * depth + 7), along, 0.5 * width + 1, 7});
     triangles += static_cast<double>(houses.geometry[v.geometry].fullDetailTriangles());
   }

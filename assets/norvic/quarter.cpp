@@ -737,6 +737,7 @@ class QuarterPlanner {
       plot.priority = static_cast<float>(glm::length(centre - brief_.centre) + random_.uniform(0, 40));
       plot.seed = random_.bits();
       out_.plots.push_back(plot);
+      out_.trodden.push_back(troddenAbout(ground));
       const double garden = random_.uniform(9, 20);
       out_.gardens.push_back({centre + into * (0.5 * depth + 0.5 * garden), t, 0.5 * width + 0.3, 0.5 * garden});
       return width + 2 * side + gap + (random_.uniform() < 0.06 ? 1.3 : 0.0);

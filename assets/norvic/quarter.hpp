@@ -81,7 +81,8 @@ struct QuarterPlan {
   std::vector<std::string> names;                        ///< by StreetStyle::name
   PlanRect market;
   std::vector<PlanRect> paved, grass, gardens;
-  std::vector<Plot> plots;  ///< by priority
+  std::vector<PlanRect> trodden;  ///< about each house: nothing grows where people go
+  std::vector<Plot> plots;        ///< by priority
   std::vector<Spot> spots;
   std::vector<TreeSpot> trees;
   std::vector<Gate> gates;
@@ -103,6 +104,12 @@ QuarterPlan planQuarter(const QuarterBrief& brief, const Landscape& land, const 
 double deckHeight(const Landscape& land, double distance);
 /// Half a bridge's length, metres.
 double bridgeHalfLength(const Landscape& land);
+
+/// The ground about a house's footprint that is bare.
+inline PlanRect troddenAbout(PlanRect footprint) {
+  footprint.halfWidth += 1.6, footprint.halfDepth += 1.6;
+  return footprint;
+}
 
 constexpr double kMoundTop = 34, kMoundFoot = 66, kMoundRise = 16;  ///< metres
 

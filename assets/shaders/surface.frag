@@ -54,11 +54,14 @@ layout(location = 0) out vec4 shown;
 
 void main() {
   vec4 t = texel();
+  float cover = 1.0;
 #ifdef CUT_OUT
-  if (t.a < 0.5) discard;
+  // The edge lies where alpha is one half; over a pixel's width it becomes coverage of the pixel's samples.
+  cover = clamp((t.a - 0.5) / max(fwidth(t.a), 1e-4) + 0.5, 0.0, 1.0);
+  if (cover < (gl_NumSamples > 1 ? 0.0625 : 0.5)) discard;
 #endif
   // Walls are darker near the ground, where the ground and what stands on it hide the sky.
-  float open = 1.0 - 0.35 * max(1.0 - 0.4 * heightAboveGround, 0.0);
-  shown = vec4(displayed(t.rgb * t.rgb * (scale * open) + add), 1.0);
+  float open = 1.0 - 0.35 * clamp(1.0 - 0.4 * heightAboveGround, 0.0, 1.0);
+  shown = vec4(displayed(t.rgb * t.rgb * (scale * open) + add), cover);
 }
 #endif
