@@ -2,6 +2,7 @@
 
 #include <iterator>
 
+#include "assets/import/import_stability.hpp"
 #include "culling/stability.hpp"
 
 namespace vicus::report {
@@ -11,6 +12,7 @@ std::vector<city::StabilityRow> allStability(bool /*quick*/) {
   const auto add = [&](std::vector<city::StabilityRow> more) {
     rows.insert(rows.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
   };
+  add(assets::importStability());
   add(culling::frustumStability());
   return rows;
 }
