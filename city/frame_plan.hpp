@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
 #include "city/instance.hpp"
+#include "city/roam_frame.hpp"
 #include "city/view_state.hpp"
 
 namespace vicus::city {
@@ -49,6 +51,7 @@ struct FramePlan {
   SetPlan trees;
   std::vector<uint32_t> monuments;  ///< drawn, ascending
   std::vector<uint32_t> tiles;      ///< drawn: tiles whose ground or content may be seen, in Morton order (ascending)
+  std::optional<RoamFrame> roam;    ///< the ground; none: the drawn tiles' ground at full detail
   PlanCounts counts;
   std::vector<StageTime> stages;  ///< in the order run
 };

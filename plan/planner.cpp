@@ -6,11 +6,14 @@
 #include <array>
 #include <cassert>
 #include <chrono>
+#include <mutex>
 #include <utility>
 
 #include "culling/cull_map.hpp"
 #include "culling/frustum.hpp"
 #include "culling/hierarchy.hpp"
+#include "plan/ground_weights.hpp"
+#include "terrain/error_table.hpp"
 
 namespace vicus::plan {
 namespace {
@@ -18,7 +21,7 @@ namespace {
 using city::City;
 using city::FramePlan;
 
-constexpr city::Knob kPlanKnobs[] = {
+constexpr city::Knob kCullingKnobs[] = {
     {"frustum_culling", 1, 0, 1, "on/off", "Leaves out what lies outside the picture's edges.",
      "off: everything is drawn, also behind the viewer", "on is the most"},
     {"cull_map", 1, 0, 1, "on/off", "Leaves out what stands hidden behind houses.",
@@ -31,6 +34,10 @@ constexpr city::Knob kPlanKnobs[] = {
 /// Fewer buildings than these draw faster than they are sorted out.
 constexpr size_t kFewestBuildings = 50;
 
+bool hasTerrain(const City& city) {
+  return city.terrain && !city.terrain->empty();
+}
+
 /// What the composition and the steps know of the scene: worked out once.
 struct Scene {
   bool frustumCulling = false;
@@ -41,6 +48,11 @@ struct Scene {
   bool cullMap = false;
   culling::Occluders occluders;
   culling::CullMapOptions cullMapOptions;
+  bool roam = false;
+  terrain::RoamSettings roamSettings;
+  /// Made when the first frame needs them: looking at a scene without drawing it stays quick.
+  mutable std::once_flag groundErrorsMade;
+  mutable terrain::ErrorTable groundErrors;
 };
 
 /// One frame in the making.
@@ -49,6 +61,7 @@ struct Frame {
   const Scene& scene;
   const culling::BoxTest& boxTest;
   FramePlan& plan;
+  PlannerState& state;
   uint64_t monumentsInFrustum = 0;
 };
 
@@ -117,6 +130,15 @@ void cullHidden(Frame& frame) {
   frame.plan.counts.occluders = stats.occluders;
 }
 
+void meshGround(Frame& frame) {
+  const Scene& scene = frame.scene;
+  const city::HeightField& field = *frame.city.terrain;
+  std::call_once(scene.groundErrorsMade,
+                 [&] { scene.groundErrors = terrain::buildErrorTable(field, groundWeights(frame.city)); });
+  if (!frame.state.ground) frame.state.ground.emplace(field, scene.groundErrors);
+  frame.plan.roam = frame.state.ground->update(frame.plan.view, scene.roamSettings);
+}
+
 constexpr Step kSteps[] = {
     {"frustum tiles", [](const Scene& s) { return s.frustumCulling && s.tiles; }, frustumTiles},
     {"frustum buildings", [](const Scene& s) { return s.frustumCulling && s.buildings; }, frustumBuildings},
@@ -127,10 +149,10 @@ constexpr Step kSteps[] = {
     {"all trees", [](const Scene& s) { return !s.frustumCulling && s.trees; }, allTrees},
     {"all monuments", [](const Scene& s) { return !s.frustumCulling && s.monuments; }, allMonuments},
     {"cull map", [](const Scene& s) { return s.cullMap; }, cullHidden},
+    {"roam", [](const Scene& s) { return s.roam; }, meshGround},
 };
 
-Scene lookAt(const City& city, const city::Knobs& knobs) {
-  Scene scene;
+void lookAt(const City& city, const city::Knobs& knobs, Scene& scene) {
   for (const city::Tile& tile : city.tiles) {
     if (tile.bounds.empty()) continue;
     ++scene.tilesWithContent;
@@ -152,7 +174,13 @@ Scene lookAt(const City& city, const city::Knobs& knobs) {
     scene.cullMap = scene.occluders.standing > 0;
     scene.cullMapOptions = {static_cast<uint32_t>(knobs["cull_map.size"]), scene.frustumCulling};
   }
-  return scene;
+  scene.roam = knobs.on("roam") && hasTerrain(city);
+  if (scene.roam) {
+    scene.roamSettings.pixelError = knobs["roam.pixel_error"];
+    scene.roamSettings.budget = static_cast<uint32_t>(knobs["roam.budget"]);
+    if (knobs["roam.milliseconds"] > 0) scene.roamSettings.milliseconds = knobs["roam.milliseconds"];
+    scene.roamSettings.frustum = knobs.on("frustum_culling");
+  }
 }
 
 /// "1 tree", "388 trees".
@@ -184,7 +212,13 @@ std::vector<FeatureReport> describe(const City& city, const city::Knobs& knobs, 
     why = counted(scene.occluders.standing, "wall", "walls") + " may hide what is behind";
   features.push_back({"cull_map", true, scene.cullMap, std::move(why)});
 
-  const bool terrain = city.terrain && !city.terrain->empty();
+  if (!knobs.on("roam"))
+    why = "knob";
+  else
+    why = scene.roam ? "the ground is drawn as finely as the eye can tell" : "no height field";
+  features.push_back({"roam", true, scene.roam, std::move(why)});
+
+  const bool terrain = hasTerrain(city);
   features.push_back(
       {"terrain", false, terrain,
        terrain ? std::to_string(city.terrain->size.x) + " × " + std::to_string(city.terrain->size.y) + " heights"
@@ -237,11 +271,16 @@ struct Planner::Impl {
 };
 
 std::span<const city::Knob> planKnobs() {
-  return kPlanKnobs;
+  static const std::vector<city::Knob> all = [] {
+    std::vector<city::Knob> knobs(std::begin(kCullingKnobs), std::end(kCullingKnobs));
+    knobs.insert(knobs.end(), terrain::roamKnobs().begin(), terrain::roamKnobs().end());
+    return knobs;
+  }();
+  return all;
 }
 
 Planner::Planner(const City& city, const city::Knobs& knobs) : impl_(std::make_unique<Impl>()) {
-  impl_->scene = lookAt(city, knobs);
+  lookAt(city, knobs, impl_->scene);
   std::copy_if(std::begin(kSteps), std::end(kSteps), std::back_inserter(impl_->steps),
                [&](const Step& step) { return step.needed(impl_->scene); });
   impl_->features = describe(city, knobs, impl_->scene);
@@ -262,7 +301,7 @@ FramePlan Planner::plan(const City& city, const city::ViewState& view, double /*
   }
 
   const culling::BoxTest boxTest = culling::boxTestFor(culling::frustumOf(view), impl_->scene.reach);
-  Frame frame{city, impl_->scene, boxTest, plan, 0};
+  Frame frame{city, impl_->scene, boxTest, plan, state, 0};
   for (const Step& step : impl_->steps) {
     const Clock::time_point begin = Clock::now();
     step.run(frame);

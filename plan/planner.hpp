@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "city/city.hpp"
 #include "city/frame_plan.hpp"
 #include "city/knob.hpp"
+#include "terrain/roam.hpp"
 
 namespace vicus::plan {
 
@@ -23,9 +25,10 @@ struct FeatureReport {
 /// What must be remembered between frames of one view; one for each view (eye, reference, item buffer, frozen view).
 struct PlannerState {
   size_t runs = 0;  ///< runs of buildings in the last plan: how much room to make for the next; changes no result
+  std::optional<terrain::Roam> ground;  ///< the mesh of this view; refers to the city and to the planner
 };
 
-/// Knobs of the planning techniques (frustum_culling, …).
+/// Knobs of the planning techniques (frustum_culling, roam, …).
 std::span<const city::Knob> planKnobs();
 
 /// The one composition: looks at the scene and the knobs once and makes only the steps that this scene needs.
@@ -37,7 +40,8 @@ class Planner {
   Planner(Planner&&) noexcept;
   Planner& operator=(Planner&&) noexcept;
 
-  /// `city` is the one that the planner was made for. `dt` in seconds since this view's last plan.
+  /// `city` is the one that the planner was made for; it, and the planner, must outlive the state. `dt` in seconds
+  /// since this view's last plan.
   city::FramePlan plan(const city::City& city, const city::ViewState& view, double dt, PlannerState& state) const;
 
   /// Every technique and kind of content, on or off, with the reason.

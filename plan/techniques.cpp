@@ -4,11 +4,17 @@ namespace vicus::plan {
 namespace {
 
 constexpr double kColumns[] = {256, 1024, 2048, 8192, 32768};
+constexpr double kPixelErrors[] = {0.5, 1, 2, 4, 8, 16};
 constexpr double kMultisamples[] = {1, 2, 4, 8};
 
 constexpr Technique kTechniques[] = {
     {.name = "frustum_culling", .switchKnob = "frustum_culling", .visibility = true},
     {.name = "cull_map", .switchKnob = "cull_map", .sweptKnob = "cull_map.size", .sweep = kColumns, .visibility = true},
+    {.name = "roam",
+     .switchKnob = "roam",
+     .sweptKnob = "roam.pixel_error",
+     .sweep = kPixelErrors,
+     .geometricErrorPixels = [](const city::FramePlan& plan) { return plan.roam ? plan.roam->pixelError : 0.0; }},
     {.name = "state_ordering", .switchKnob = "state_ordering"},
     {.name = "multisampling", .sweptKnob = "viewer.multisamples", .sweep = kMultisamples},
 };

@@ -47,8 +47,12 @@ class Feature {
   uint64_t gpuBytes() const { return gpuBytes_; }
 
  protected:
-  /// Registers a node with its looks, drawn in `pass`.
+  /// Registers a node with its looks, drawn in `pass`. In `apply` too: `show` comes after it.
   void addSurface(osg::Node* node, const SurfaceStates& states, PassId pass);
+  /// Says that the feature draws in a pass, before it has a surface there.
+  void addPass(PassId pass);
+  /// Whether a surface is left out of what `show` shows.
+  void hide(const osg::Node* node, bool hidden);
 
   osg::ref_ptr<osg::Group> node_;
   uint64_t gpuBytes_ = 0;
@@ -57,6 +61,7 @@ class Feature {
   struct Surface {
     osg::ref_ptr<osg::Node> node;
     SurfaceStates states;
+    bool hidden = false;
   };
   std::vector<Surface> surfaces_;
   std::vector<PassId> passes_;

@@ -1,6 +1,7 @@
 #include "scenegraph/gl_buffer.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace vicus::scenegraph {
 
@@ -13,6 +14,19 @@ void GlBuffer::fill(const void* data, size_t bytes, GLenum usage) {
     if (bytes == capacity_) data = nullptr;
   }
   if (data && bytes > 0) glBufferSubData(GL_COPY_WRITE_BUFFER, 0, static_cast<GLsizeiptr>(bytes), data);
+  glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
+}
+
+bool GlBuffer::reserve(size_t bytes, GLenum usage) {
+  if (name_ != 0 && bytes <= capacity_) return false;
+  fill(nullptr, bytes, usage);
+  return true;
+}
+
+void GlBuffer::write(size_t offset, const void* data, size_t bytes) {
+  assert(offset + bytes <= capacity_);
+  glBindBuffer(GL_COPY_WRITE_BUFFER, name_);
+  glBufferSubData(GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
   glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
 }
 

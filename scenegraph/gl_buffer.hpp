@@ -24,10 +24,15 @@ class GlBuffer {
   void fill(std::span<const T> data, GLenum usage) {
     fill(data.data(), data.size_bytes(), usage);
   }
+  /// Makes room for `bytes` bytes. Returns whether the contents were lost by that; what is new is undefined.
+  bool reserve(size_t bytes, GLenum usage);
+  /// Replaces bytes from `offset` on; room for them must have been made.
+  void write(size_t offset, const void* data, size_t bytes);
   void release();
 
   GLuint name() const { return name_; }
   bool exists() const { return name_ != 0; }
+  size_t capacity() const { return capacity_; }
 
  private:
   GLuint name_ = 0;

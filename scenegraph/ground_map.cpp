@@ -122,24 +122,27 @@ Paint coverAt(const city::GroundCover& cover, glm::dvec2 p, glm::dvec2 ragged) {
   return sum;
 }
 
-/// The field's slope on a coarse grid of normals, so that painting looks up instead of searching.
-float flatnessAt(const city::HeightField& field, const std::vector<float>& flatness, glm::dvec2 p) {
+/// The field's normal between its samples' own, so that painting looks up instead of searching.
+glm::vec3 normalAt(const city::HeightField& field, const std::vector<glm::vec3>& normals, glm::dvec2 p) {
   const glm::dvec2 cell = (p - field.origin) / field.spacing;
   const int column = std::clamp(static_cast<int>(cell.x), 0, field.size.x - 2);
   const int row = std::clamp(static_cast<int>(cell.y), 0, field.size.y - 2);
   const glm::vec2 t(glm::clamp(cell - glm::dvec2(column, row), 0.0, 1.0));
-  const float* at =
-      flatness.data() + static_cast<size_t>(row) * static_cast<size_t>(field.size.x) + static_cast<size_t>(column);
-  return glm::mix(glm::mix(at[0], at[1], t.x), glm::mix(at[field.size.x], at[field.size.x + 1], t.x), t.y);
+  const glm::vec3* at =
+      normals.data() + static_cast<size_t>(row) * static_cast<size_t>(field.size.x) + static_cast<size_t>(column);
+  return glm::normalize(
+      glm::mix(glm::mix(at[0], at[1], t.x), glm::mix(at[field.size.x], at[field.size.x + 1], t.x), t.y));
 }
 
-/// Part of the light on level ground that reaches a pixel.
-glm::vec3 lightThrough(const GroundShade& shade, const Light& light, size_t pixel) {
-  if (shade.size == 0) return glm::vec3(1);
-  const glm::vec3 sun = light.sun * std::max(light.sunDirection.z, 0.0f);
-  const float sunPart = static_cast<float>(shade.sun[pixel]) / 255,
-              skyPart = static_cast<float>(shade.sky[pixel]) / 255;
-  return (sun * sunPart + light.sky * skyPart) / (sun + light.sky);
+/// Light on a pixel over that on open level ground, which the shaders give it.
+glm::vec3 lightOn(const glm::vec3& normal, const GroundShade& shade, const Light& light, size_t pixel) {
+  const bool shaded = shade.size > 0;
+  const float sunPart = shaded ? static_cast<float>(shade.sun[pixel]) / 255 : 1,
+              skyPart = shaded ? static_cast<float>(shade.sky[pixel]) / 255 : 1;
+  const glm::vec3 sun = light.sun * std::max(glm::dot(normal, light.sunDirection), 0.0f);
+  const glm::vec3 sky = glm::mix(light.bounce, light.sky, 0.5f + 0.5f * normal.z);
+  const glm::vec3 level = light.sun * std::max(light.sunDirection.z, 0.0f) + light.sky;
+  return (sun * sunPart + sky * skyPart) / level;
 }
 
 /// What all rows of a map are painted from.
@@ -147,7 +150,7 @@ struct Painting {
   const city::HeightField& field;
   const city::GroundCover* cover;  ///< may be null
   std::vector<uint8_t> plain;      ///< for each cell of the cover
-  std::vector<float> flatness;     ///< for each sample of the field
+  std::vector<glm::vec3> normals;  ///< for each sample of the field
   const GroundShade& shade;
   const Light& light;
 };
@@ -181,13 +184,14 @@ void paintRow(GroundMap& map, const Painting& from, int row) {
       paint = mixed(kPaints[static_cast<size_t>(city::Ground::Grass)],
                     kPaints[static_cast<size_t>(city::Ground::Field)], 0.6f * meadow);
     }
-    const float steep = glm::smoothstep(0.12f, 0.35f, 1 - flatnessAt(field, from.flatness, p) + 0.08f * (fine - 0.5f));
+    const glm::vec3 normal = normalAt(field, from.normals, p);
+    const float steep = glm::smoothstep(0.12f, 0.35f, 1 - normal.z + 0.08f * (fine - 0.5f));
     paint = mixed(paint, kRock, 0.85f * steep);
     const float mottled = 1 + 0.28f * (broad - 0.5f) + 0.22f * (fine - 0.5f);
     const float warm = 0.10f * (warmNoise(x) - 0.5f);
     const size_t pixel = static_cast<size_t>(row) * static_cast<size_t>(map.size) + static_cast<size_t>(column);
     const glm::vec3 albedo =
-        paint.albedo * mottled * glm::vec3(1 + warm, 1, 1 - warm) * lightThrough(from.shade, from.light, pixel);
+        paint.albedo * mottled * glm::vec3(1 + warm, 1, 1 - warm) * lightOn(normal, from.shade, from.light, pixel);
     uint8_t* out = map.rgba.data() + 4 * pixel;
     for (int k = 0; k < 3; ++k)
       out[k] = static_cast<uint8_t>(255 * std::sqrt(std::clamp(albedo[k], 0.0f, 1.0f)) + 0.5f);
@@ -217,12 +221,12 @@ GroundMap paintGroundMap(const city::HeightField& field, const city::GroundCover
   if (cover && (cover->size.x < 1 || cover->size.y < 1)) cover = nullptr;
   map.size = size;
   map.rgba.resize(4 * static_cast<size_t>(size) * static_cast<size_t>(size));
-  Painting from{field, cover, {}, std::vector<float>(field.heights.size()), shade, light};
+  Painting from{field, cover, {}, std::vector<glm::vec3>(field.heights.size()), shade, light};
   if (cover) from.plain = plainCells(*cover);
   for (int r = 0; r < field.size.y; ++r)
     for (int c = 0; c < field.size.x; ++c)
-      from.flatness[static_cast<size_t>(r) * static_cast<size_t>(field.size.x) + static_cast<size_t>(c)] =
-          sampleNormal(field, c, r).z;
+      from.normals[static_cast<size_t>(r) * static_cast<size_t>(field.size.x) + static_cast<size_t>(c)] =
+          sampleNormal(field, c, r);
   const auto paintRows = [&](int first, int stride) {
     for (int row = first; row < size; row += stride) paintRow(map, from, row);
   };

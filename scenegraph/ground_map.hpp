@@ -1,4 +1,5 @@
-/// The colour of a city's ground, painted once from what covers it and how steep it is. No GL.
+/// The colour of a city's ground, painted once from what covers it, how steep it is and how the light falls on it. No
+/// GL: it is the same however coarsely the ground is meshed.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +12,8 @@
 
 namespace vicus::scenegraph {
 
-/// Square picture over the height field, row 0 in the south. rgb: square root of linear albedo; alpha: which detail
+/// Square picture over the height field, row 0 in the south. rgb: square root of linear albedo times the light on the
+/// slope over that on level ground; alpha: which detail
 /// goes with it, 0 grass, 0.5 earth, 1 stones.
 struct GroundMap {
   int size = 0;
@@ -26,7 +28,8 @@ glm::vec4 countrysideTexel();
 int groundMapSize(glm::dvec2 extent, int largest);
 
 /// Paints the map: the cover's classes with softened, slightly ragged borders, mottled; earth and rock where it is
-/// steep; darker where `shade` (of the same size, or of size 0) keeps sun and sky of `light` away. Without cover: grass
+/// steep; lit by `light` as the field's own slopes are; darker where `shade` (of the same size, or of size 0) keeps sun
+/// and sky away. Without cover: grass
 /// and meadows. Deterministic, rows in parallel.
 GroundMap paintGroundMap(const city::HeightField& field, const city::GroundCover* cover, int size,
                          const GroundShade& shade, const Light& light);

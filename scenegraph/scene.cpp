@@ -171,7 +171,6 @@ struct Scene::Impl {
   uint64_t sharedBinds = 0;  ///< textures on the root, each bound once a frame
   uint64_t sharedBytes = 0;
   glm::dmat4 eyeFromWorld{1}, clipFromEye{1};
-  std::optional<Variant> shown;
 };
 
 Scene::Scene(const city::City& city, const city::Knobs& knobs, city::Diagnostics& diagnostics,
@@ -270,10 +269,10 @@ void Scene::apply(const city::FramePlan& plan, Variant variant, const PictureWin
 
   s.counts = {};
   s.counts.textureBinds = s.sharedBinds;
-  for (const auto& feature : s.features) s.counts += feature->apply(plan);
-  if (s.shown != variant)
-    for (const auto& feature : s.features) feature->show(variant);
-  s.shown = variant;
+  for (const auto& feature : s.features) {
+    s.counts += feature->apply(plan);
+    feature->show(variant);
+  }
 }
 
 const glm::dmat4& Scene::eyeFromWorld() const {

@@ -1,11 +1,12 @@
 #include "scenegraph/gl.hpp"
 
 #include <algorithm>
-#include <osg/Image>
+#include <optional>
 #include <osg/Texture2D>
 
 #include "scenegraph/features.hpp"
 #include "scenegraph/ground_map.hpp"
+#include "scenegraph/roam_drawable.hpp"
 #include "scenegraph/terrain_mesh.hpp"
 
 namespace vicus::scenegraph {
@@ -22,7 +23,6 @@ using As = VertexAttribute::As;
 /// At the locations of shaders/terrain.vert.
 constexpr VertexAttribute kVertexAttributes[] = {
     {0, 3, GL_FLOAT, As::Float, offsetof(TerrainVertex, position)},
-    {2, 2, GL_SHORT, As::Normalised, offsetof(TerrainVertex, normal)},
 };
 constexpr VertexAttribute kPatchAttributes[] = {
     {3, 4, GL_FLOAT, As::Float, offsetof(GpuPatch, uv)},
@@ -136,32 +136,95 @@ class TerrainDrawable : public osg::Drawable {
   mutable GlBuffer vertices_, indices_, patchBuffer_, commandBuffer_;
 };
 
+/// Uniforms that tell shaders/terrain.vert (ROAM) where the eye is over the samples.
+class SamplesFromEye {
+ public:
+  SamplesFromEye(const city::HeightField& field, osg::StateSet& states) : origin_(field.origin), step_(field.spacing) {
+    for (const auto& u : {sample_, beyond_, height_, detail_}) states.addUniform(u);
+    const glm::vec2 step(step_), inMap(1.0 / glm::dvec2(field.size - 1));
+    states.addUniform(new osg::Uniform("sampleSpacing", osg::Vec2f(step.x, step.y)));
+    states.addUniform(new osg::Uniform("mapFromSample", osg::Vec2f(inMap.x, inMap.y)));
+  }
+  void moveTo(const glm::dvec3& eye) {
+    constexpr double kFarthest = 1 << 24;  // samples
+    const glm::dvec2 fromOrigin = glm::dvec2(eye) - origin_;
+    const glm::dvec2 sample = glm::clamp(glm::floor(fromOrigin / step_), -kFarthest, kFarthest);
+    const glm::vec2 beyond(fromOrigin - sample * step_), detail(glm::fract(glm::dvec2(eye) / kGroundDetailMetres));
+    const auto height = static_cast<float>(eye.z);
+    sample_->set(static_cast<int>(sample.x), static_cast<int>(sample.y));
+    beyond_->set(osg::Vec2f(beyond.x, beyond.y));
+    height_->set(osg::Vec2f(height, static_cast<float>(eye.z - static_cast<double>(height))));
+    detail_->set(osg::Vec2f(detail.x, detail.y));
+  }
+
+ private:
+  glm::dvec2 origin_, step_;
+  osg::ref_ptr<osg::Uniform> sample_ = new osg::Uniform(osg::Uniform::INT_VEC2, "eyeSample");
+  osg::ref_ptr<osg::Uniform> beyond_ = new osg::Uniform("eyeBeyondSample", osg::Vec2f());
+  osg::ref_ptr<osg::Uniform> height_ = new osg::Uniform("eyeHeight", osg::Vec2f());
+  osg::ref_ptr<osg::Uniform> detail_ = new osg::Uniform("eyeDetailUv", osg::Vec2f());
+};
+
+/// Plans with a ROAM mesh draw that, others the drawn tiles' patches at full detail. Each is made when a plan first
+/// needs it: nobody pays for both who sees one.
 class Terrain : public Feature {
  public:
-  Terrain(const city::City& city, const SceneParts& parts) : Feature("terrain") {
-    const city::HeightField& field = *city.terrain;
+  Terrain(const city::City& city, const SceneParts& parts) : Feature("terrain"), city_(city), parts_(parts) {
+    const glm::vec2 mapRepeats(1.0 / city.terrain->extent());
+    node_->getOrCreateStateSet()->addUniform(new osg::Uniform("mapRepeats", osg::Vec2f(mapRepeats.x, mapRepeats.y)));
+    addPass(PassId::Ground);
+  }
+
+  DrawCounts apply(const city::FramePlan& plan) override {
+    DrawCounts counts;
+    if (plan.roam) {
+      if (!roam_) makeRoam();
+      roam_->show(*plan.roam);
+      samplesFromEye_->moveTo(plan.view.eye);
+      counts.triangles = counts.terrainTriangles = plan.roam->mesh->triangles.size();
+      counts.drawCalls = counts.triangles > 0;
+    } else {
+      if (!patches_) makePatches();
+      counts = patches_->apply(plan);
+    }
+    gpuBytes_ = (roam_ ? roam_->bytes() : 0) + (patches_ ? patches_->bytes() : 0);
+    if (roam_) hide(roam_, !plan.roam);
+    if (patches_) hide(patches_, plan.roam.has_value());
+    return counts;
+  }
+
+ private:
+  void makeRoam() {
+    roam_ = new RoamDrawable(city_.terrain->size);
+    roam_->setName("terrain/ROAM mesh");
+    node_->addChild(roam_);
+    samplesFromEye_.emplace(*city_.terrain, *node_->getOrCreateStateSet());
+    addSurface(roam_, surfaceStates(PassId::Ground, "terrain.vert", "ground.frag", {"GROUND_MAP", "ROAM"}),
+               PassId::Ground);
+  }
+  void makePatches() {
+    const city::HeightField& field = *city_.terrain;
     std::vector<glm::dvec3> bases;
     std::vector<GpuPatch> patches;
-    for (uint32_t t = 0; t < city.grid.tileCount(); ++t) {
-      bases.push_back(parts.tiles->base(t));
+    for (uint32_t t = 0; t < city_.grid.tileCount(); ++t) {
+      bases.push_back(parts_.tiles->base(t));
       const glm::dvec2 inMap = (glm::dvec2(bases.back()) - field.origin) / field.extent();
       const glm::dvec2 inDetail = glm::fract(glm::dvec2(bases.back()) / kGroundDetailMetres);
       patches.push_back({glm::vec4(glm::vec2(inMap), glm::vec2(inDetail)), t});
     }
-    drawable_ =
-        new TerrainDrawable(terrainMesh(field, city.grid, bases), std::move(patches), parts.tiles, parts.ordering);
-    drawable_->setName("terrain/patches");
-    drawable_->setMap(parts.groundMap);
-    node_->addChild(drawable_);
-    const glm::vec2 mapRepeats(1.0 / field.extent());
-    node_->getOrCreateStateSet()->addUniform(new osg::Uniform("mapRepeats", osg::Vec2f(mapRepeats.x, mapRepeats.y)));
-    addSurface(drawable_, surfaceStates(PassId::Ground, "terrain.vert", "ground.frag", {"GROUND_MAP"}), PassId::Ground);
-    gpuBytes_ = drawable_->bytes();
+    patches_ =
+        new TerrainDrawable(terrainMesh(field, city_.grid, bases), std::move(patches), parts_.tiles, parts_.ordering);
+    patches_->setName("terrain/patches at full detail");
+    patches_->setMap(parts_.groundMap);
+    node_->addChild(patches_);
+    addSurface(patches_, surfaceStates(PassId::Ground, "terrain.vert", "ground.frag", {"GROUND_MAP"}), PassId::Ground);
   }
-  DrawCounts apply(const city::FramePlan& plan) override { return drawable_->apply(plan); }
 
- private:
-  osg::ref_ptr<TerrainDrawable> drawable_;
+  const city::City& city_;
+  SceneParts parts_;
+  osg::ref_ptr<TerrainDrawable> patches_;
+  osg::ref_ptr<RoamDrawable> roam_;
+  std::optional<SamplesFromEye> samplesFromEye_;
 };
 
 }  // namespace

@@ -73,8 +73,7 @@ TerrainMesh terrainMesh(const city::HeightField& field, const city::TileGrid& gr
         const bool has = std::isfinite(height);
         whole &= has;
         const glm::dvec2 plan = field.origin + field.spacing * glm::dvec2(c, r);
-        mesh.vertices.push_back({glm::vec3(glm::dvec3(plan, has ? static_cast<double>(height) : base.z) - base),
-                                 city::packNormal(sampleNormal(field, c, r))});
+        mesh.vertices.push_back({glm::vec3(glm::dvec3(plan, has ? static_cast<double>(height) : base.z) - base)});
       }
 
     const std::array<int, 3> shape = {c1 - c0, r1 - r0, (c0 + r0) & 1};

@@ -11,9 +11,8 @@ namespace vicus::scenegraph {
 
 struct TerrainVertex {
   glm::vec3 position;  ///< metres from the tile's base
-  uint32_t normal;     ///< packNormal, of the whole field's slope there
 };
-static_assert(sizeof(TerrainVertex) == 16);
+static_assert(sizeof(TerrainVertex) == 12);
 
 struct TerrainPatch {
   uint32_t tile = 0;

@@ -35,8 +35,19 @@ void parallelFor(int tasks, unsigned threads, const Work& work) {
   run();
 }
 
-/// Largest |row[i] − (z + slope · i)| for i in 0 … count − 1.
-float largestDeviation(const float* row, int count, float z, float slope) {
+/// Heights along a row, and what their errors weigh; no weights where all weigh the same.
+struct Row {
+  const float* heights;
+  const float* weights;
+};
+
+/// Largest weight[i] · |row[i] − (z + slope · i)| for i in 0 … count − 1.
+template <bool kWeighted>
+float largestDeviationOf(const Row& row, int count, float z, float slope) {
+  const auto deviation = [&](int i, float at) {
+    const float d = std::abs(row.heights[i] - (z + slope * at));
+    return kWeighted ? d * row.weights[i] : d;
+  };
   constexpr int kLanes = 8;
   float most = 0;
   int i = 0;
@@ -45,17 +56,20 @@ float largestDeviation(const float* row, int count, float z, float slope) {
     for (int l = 0; l < kLanes; ++l) at[static_cast<size_t>(l)] = static_cast<float>(l);
     for (; i + kLanes <= count; i += kLanes)
       for (size_t l = 0; l < kLanes; ++l) {
-        const float d = std::abs(row[static_cast<size_t>(i) + l] - (z + slope * at[l]));
+        const float d = deviation(i + static_cast<int>(l), at[l]);
         lanes[l] = d > lanes[l] ? d : lanes[l];
         at[l] += static_cast<float>(kLanes);
       }
     for (const float lane : lanes) most = lane > most ? lane : most;
   }
   for (; i < count; ++i) {
-    const float d = std::abs(row[i] - (z + slope * static_cast<float>(i)));
+    const float d = deviation(i, static_cast<float>(i));
     most = d > most ? d : most;
   }
   return most;
+}
+float largestDeviation(const Row& row, int count, float z, float slope) {
+  return row.weights ? largestDeviationOf<true>(row, count, z, slope) : largestDeviationOf<false>(row, count, z, slope);
 }
 
 /// Heights of the field as the patches see them.
@@ -63,6 +77,7 @@ struct Samples {
   const city::HeightField& field;
   const float* filled;  ///< heights with gaps filled: what stands in a gap may be drawn too
   PatchGrid patches;
+  const float* weights;  ///< null: all weigh 1
 
   size_t index(glm::ivec2 at) const {
     return static_cast<size_t>(at.y) * static_cast<size_t>(field.size.x) + static_cast<size_t>(at.x);
@@ -70,7 +85,8 @@ struct Samples {
   glm::ivec2 pressed(glm::ivec2 at) const { return glm::min(at, patches.cells); }
   bool within(glm::ivec2 at) const { return at.x <= patches.cells.x && at.y <= patches.cells.y; }
   float corner(glm::ivec2 at) const { return filled[index(at)]; }
-  const float* row(glm::ivec2 at) const { return filled + index(at); }
+  Row row(glm::ivec2 at) const { return {filled + index(at), weights ? weights + index(at) : nullptr}; }
+  float weight(glm::ivec2 at) const { return weights ? weights[index(at)] : 1; }
   bool hasData(glm::ivec2 at) const { return std::isfinite(field.heights[index(at)]); }
 };
 
@@ -158,7 +174,7 @@ UnderTriangle errorOfPressedTriangle(const Samples& s, const Corners& t) {
     const int first = static_cast<int>(std::ceil(west - kOnEdge)), last = static_cast<int>(std::floor(east + kOnEdge));
     for (int x = first; x <= last; ++x) {
       const double plane = za + slopeX * (x - t.a.x) + slopeY * (y - t.a.y);
-      const auto d = static_cast<float>(std::abs(static_cast<double>(*s.row({x, y})) - plane));
+      const auto d = s.weight({x, y}) * static_cast<float>(std::abs(static_cast<double>(s.corner({x, y})) - plane));
       cover |= s.hasData({x, y}) ? kData : kGap;
       result.metres = d > result.metres ? d : result.metres;
     }
@@ -283,7 +299,8 @@ float decodeError(ErrorCode code) {
   return std::bit_cast<float>((uint32_t{code} << kExponentShift) + kExponentOffset);
 }
 
-ErrorTable buildErrorTable(const city::HeightField& field, unsigned threads) {
+ErrorTable buildErrorTable(const city::HeightField& field, std::span<const float> weights, unsigned threads) {
+  assert((weights.empty() || weights.size() == field.heights.size()) && "one weight for each sample");
   ErrorTable table;
   const bool gaps = std::any_of(field.heights.begin(), field.heights.end(), [](float h) { return !std::isfinite(h); });
   const bool data = std::any_of(field.heights.begin(), field.heights.end(), [](float h) { return std::isfinite(h); });
@@ -294,7 +311,8 @@ ErrorTable buildErrorTable(const city::HeightField& field, unsigned threads) {
   const glm::ivec2 span = table.patches.span();
   const auto columns = static_cast<size_t>(span.x) + 1;
   table.codes.resize(2 * columns * (static_cast<size_t>(span.y) + 1), 0);
-  const Samples samples{field, gaps ? table.filled.data() : field.heights.data(), table.patches};
+  const Samples samples{field, gaps ? table.filled.data() : field.heights.data(), table.patches,
+                        weights.empty() ? nullptr : weights.data()};
   std::optional<Covers> covers;
   if (gaps) covers.emplace(samples);
 

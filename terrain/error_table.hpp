@@ -40,6 +40,9 @@ struct ErrorTable {
 
 /// Computes the table with `threads` threads (0: as many as the machine has cores). The result does not depend on their
 /// number. A field with fewer than 2 × 2 samples, or without one sample that has data, gives no patches.
-ErrorTable buildErrorTable(const city::HeightField& field, unsigned threads = 0);
+///
+/// With `weights`, one finite number ≥ 1 for each sample, the distance at a sample counts so many times: errors where
+/// they show most are kept smaller.
+ErrorTable buildErrorTable(const city::HeightField& field, std::span<const float> weights = {}, unsigned threads = 0);
 
 }  // namespace vicus::terrain

@@ -1,6 +1,7 @@
 #include "terrain/mesh_check.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -24,7 +25,7 @@ bool inPicture(const city::ViewState& view, const glm::dvec3& position) {
 
 /// Calls `visit(column, row, height of the triangle there)` for the samples in a triangle and on its edges.
 template <typename Visit>
-void forSamples(const std::array<VertexWrite, 3>& t, const Visit& visit) {
+void forSamples(const std::array<RoamMesh::Vertex, 3>& t, const Visit& visit) {
   const Place a = t[0].sample, b = t[1].sample, c = t[2].sample;
   const auto area = static_cast<double>(cross(b - a, c - a));
   if (area <= 0) return;
@@ -44,13 +45,15 @@ void forSamples(const std::array<VertexWrite, 3>& t, const Visit& visit) {
 }  // namespace
 
 void MeshBuffers::apply(const RoamFrame& frame) {
-  if (vertices.size() < frame.vertexSlots) vertices.resize(frame.vertexSlots);
-  for (const VertexWrite& write : frame.vertices) vertices[write.slot] = write;
-  triangles.resize(frame.triangleCount);
-  for (const TriangleWrite& write : frame.triangles) triangles[write.slot] = write.vertices;
+  assert(held.revision + 1 == frame.revision && "a frame was left out");
+  held.revision = frame.revision;
+  held.vertices.resize(frame.mesh->vertices.size());
+  held.triangles.resize(frame.triangleCount);
+  for (const uint32_t slot : frame.changedVertices) held.vertices[slot] = frame.mesh->vertices[slot];
+  for (const uint32_t slot : frame.changedTriangles) held.triangles[slot] = frame.mesh->triangles[slot];
 }
 
-MeshFaults findFaults(const city::HeightField& field, const MeshBuffers& mesh) {
+MeshFaults findFaults(const city::HeightField& field, const RoamMesh& mesh) {
   MeshFaults faults;
   const auto index = [&](Place p) {
     return static_cast<uint64_t>(p.y) * static_cast<uint64_t>(field.size.x) + static_cast<uint64_t>(p.x);
@@ -59,7 +62,7 @@ MeshFaults findFaults(const city::HeightField& field, const MeshBuffers& mesh) {
   for (const auto& t : mesh.triangles) {
     std::array<Place, 3> p{};
     for (size_t k = 0; k < 3; ++k) {
-      const VertexWrite& v = mesh.vertices[t[k]];
+      const RoamMesh::Vertex& v = mesh.vertices[t[k]];
       p[k] = v.sample;
       const float true_ = field.at(v.sample.x, v.sample.y);
       faults.twisted += std::isfinite(true_) && true_ != v.height;
@@ -83,7 +86,7 @@ MeshFaults findFaults(const city::HeightField& field, const MeshBuffers& mesh) {
   return faults;
 }
 
-MeasuredError measureError(const city::HeightField& field, const MeshBuffers& mesh, const city::ViewState* view) {
+MeasuredError measureError(const city::HeightField& field, const RoamMesh& mesh, const city::ViewState* view) {
   MeasuredError result;
   const double scale = view ? city::pixelsPerUnitSlope(*view) : 0;
   std::vector<uint8_t> covered(field.heights.size(), 0);

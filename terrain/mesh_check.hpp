@@ -16,10 +16,9 @@ namespace vicus::terrain {
 
 /// Vertex and index buffers as a graphics card would hold them.
 struct MeshBuffers {
-  std::vector<VertexWrite> vertices;  ///< by slot
-  std::vector<std::array<uint32_t, 3>> triangles;
+  RoamMesh held;
 
-  /// Applies one frame's writes.
+  /// Copies what one frame changed; the frames before must have been applied.
   void apply(const RoamFrame& frame);
 };
 
@@ -31,7 +30,7 @@ struct MeshFaults {
   uint64_t twisted = 0;    ///< vertices whose height is not that of their sample, where that has data
   double coveredArea = 0;  ///< cells
 };
-MeshFaults findFaults(const city::HeightField& field, const MeshBuffers& mesh);
+MeshFaults findFaults(const city::HeightField& field, const RoamMesh& mesh);
 
 /// Vertical distances between the mesh and the field's samples, sample by sample, in double.
 struct MeasuredError {
@@ -41,7 +40,6 @@ struct MeasuredError {
 };
 /// With a view, pixels are metres · pixelsPerUnitSlope / distance from the eye to the mesh at the sample, of the
 /// samples whose place on the mesh or on the ground projects into the picture.
-MeasuredError measureError(const city::HeightField& field, const MeshBuffers& mesh,
-                           const city::ViewState* view = nullptr);
+MeasuredError measureError(const city::HeightField& field, const RoamMesh& mesh, const city::ViewState* view = nullptr);
 
 }  // namespace vicus::terrain

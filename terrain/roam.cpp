@@ -63,11 +63,10 @@ struct alignas(128) Diamond {
   }
 };
 
-/// A triangle of the index buffer.
+/// A slot of the index buffer.
 struct Drawn {
-  std::array<uint32_t, 3> vertices;
-  uint32_t owner;    ///< its side
-  uint32_t touched;  ///< frame in which its slot last changed
+  uint32_t owner;    ///< the side drawn there
+  uint64_t touched;  ///< revision in which it last changed
 };
 
 /// Corners of up to four triangles from the eye, coordinate by coordinate, so that they are worked on side by side.
@@ -218,12 +217,12 @@ struct Roam::Impl {
   Eye eye;
   bool started = false;
 
-  std::vector<Drawn> triangles;  ///< the index buffer
+  std::shared_ptr<RoamMesh> mesh = std::make_shared<RoamMesh>();
+  std::vector<Drawn> drawn;  ///< by slot of the mesh's triangles
   std::vector<uint32_t> touchedSlots, touchedVertices;
-  uint32_t frame = 0;
   uint32_t visible = 0;  ///< triangles in the frustum
 
-  RoamOperations operations;
+  city::RoamOperations operations;
   std::vector<uint32_t> group, work;  ///< of `reground`
 
   Impl(const city::HeightField& f, const ErrorTable& t)
@@ -304,11 +303,12 @@ struct Roam::Impl {
     cornerSlots = static_cast<uint32_t>(corners.x * corners.y);
     const auto cornerSlot = [&](int x, int y) { return static_cast<uint32_t>(y * corners.x + x); };
     vertexHeights.resize(cornerSlots);
+    mesh->vertices.resize(cornerSlots);
     for (int y = 0; y < corners.y; ++y)
-      for (int x = 0; x < corners.x; ++x)
-        vertexHeights[cornerSlot(x, y)] = heightOf(sampleAt(2 * patches.side * glm::ivec2(x, y)));
+      for (int x = 0; x < corners.x; ++x) placeVertex(cornerSlot(x, y), sampleAt(2 * patches.side * glm::ivec2(x, y)));
     diamonds.resize(roots);
     vertexHeights.resize(cornerSlots + roots);
+    mesh->vertices.resize(cornerSlots + roots);
     for (int y = 0; y < patches.count.y; ++y)
       for (int x = 0; x < patches.count.x; ++x) {
         Diamond& d = diamonds[static_cast<size_t>(y * patches.count.x + x)];
@@ -328,35 +328,42 @@ struct Roam::Impl {
       }
   }
 
+  void placeVertex(uint32_t vertex, glm::ivec2 sample) {
+    vertexHeights[vertex] = heightOf(sample);
+    mesh->vertices[vertex] = {sample, vertexHeights[vertex]};
+    touchedVertices.push_back(vertex);
+  }
+
   // --- the index buffer ----------------------------------------------------------------------------------------------
 
   void putTriangle(uint32_t slot, uint32_t id) {
     Diamond& d = diamonds[id >> 1];
     d.side[id & 1].slot = slot;
-    Drawn& drawn = triangles[slot];
-    drawn.vertices = verticesOf(d, id & 1);
-    drawn.owner = id;
-    if (drawn.touched == frame) return;
-    drawn.touched = frame;
+    mesh->triangles[slot] = verticesOf(d, id & 1);
+    drawn[slot].owner = id;
+    if (drawn[slot].touched == mesh->revision) return;
+    drawn[slot].touched = mesh->revision;
     touchedSlots.push_back(slot);
   }
   void draw(uint32_t id) {
     Diamond& d = diamonds[id >> 1];
     Side& t = d.side[id & 1];
     if (!t.ground) return;
-    t.slot = static_cast<uint32_t>(triangles.size());
+    t.slot = static_cast<uint32_t>(drawn.size());
     visible += t.planes != kOutside;
     touchedSlots.push_back(t.slot);
-    triangles.push_back({verticesOf(d, id & 1), id, frame});
+    mesh->triangles.push_back(verticesOf(d, id & 1));
+    drawn.push_back({id, mesh->revision});
   }
   void undraw(uint32_t id) {
     Side& t = side(id);
     if (t.slot == kNone) return;
     visible -= t.planes != kOutside;
-    const auto last = static_cast<uint32_t>(triangles.size() - 1);
-    if (t.slot != last) putTriangle(t.slot, triangles[last].owner);
+    const auto last = static_cast<uint32_t>(drawn.size() - 1);
+    if (t.slot != last) putTriangle(t.slot, drawn[last].owner);
     t.slot = kNone;
-    triangles.pop_back();
+    drawn.pop_back();
+    mesh->triangles.pop_back();
   }
   /// `to` is drawn in the place of `from`.
   void redraw(uint32_t from, uint32_t to) {
@@ -576,6 +583,7 @@ struct Roam::Impl {
       freeDiamonds.push_back(static_cast<uint32_t>(diamonds.size()));
       diamonds.emplace_back();
       vertexHeights.push_back(0);
+      mesh->vertices.emplace_back();
     }
   }
 
@@ -599,8 +607,7 @@ struct Roam::Impl {
       if (parent != kNone) ++diamonds[parent].splitChildren;
 
     const uint32_t vertex = vertexOf(d);
-    vertexHeights[vertex] = heightOf(sampleAt(here.centre));
-    touchedVertices.push_back(d);
+    placeVertex(vertex, sampleAt(here.centre));
     const Around around = aroundCentre(here, vertex);
     Batch batch;
     for (uint32_t s = 0; s < 2; ++s) {
@@ -870,9 +877,9 @@ struct Roam::Impl {
 
   RoamFrame run(const Eye& next, uint32_t budget, double milliseconds) {
     operations = {};
-    ++frame;
+    ++mesh->revision;
+    if (started) touchedVertices.clear();  // the corners' places belong to the first frame
     touchedSlots.clear();
-    touchedVertices.clear();
     RoamFrame result;
     result.stoppedBy = StoppedBy::Error;
     result.pixelError = next.pixelsPerRatio;
@@ -903,7 +910,7 @@ struct Roam::Impl {
     if (deferral.size() > 8 * diamonds.size() + 4096)
       deferral.purge([&](const Deferral::Entry& e) { return side(e.item).present && side(e.item).stamp == e.stamp; });
   }
-  bool mayBind(uint32_t budget) const { return triangles.size() > (ordered ? budget / 2 : budget - budget / 4); }
+  bool mayBind(uint32_t budget) const { return drawn.size() > (ordered ? budget / 2 : budget - budget / 4); }
 
   void start() {
     started = true;
@@ -913,7 +920,7 @@ struct Roam::Impl {
   /// Splits for a side unless that takes more triangles than the budget has.
   bool fits(uint32_t id, uint32_t budget) {
     want(id);
-    if (triangles.size() <= budget) return true;
+    if (drawn.size() <= budget) return true;
     release(id);
     return false;
   }
@@ -938,7 +945,7 @@ struct Roam::Impl {
     uint32_t least = 1;
     while (true) {
       if (late()) return StoppedBy::Time;
-      const bool over = triangles.size() > budget;
+      const bool over = drawn.size() > budget;
       const bool pending = !wanting.empty() && wanting.highest() >= least;
       if (!over && !pending) break;
       const uint32_t worst = pending ? wanting.highest() : 0;
@@ -955,7 +962,7 @@ struct Roam::Impl {
       least = std::max(least, lowest + 1);
       release(standing.first(lowest));
     }
-    return triangles.size() > budget || !wanting.empty() ? StoppedBy::Budget : StoppedBy::Error;
+    return drawn.size() > budget || !wanting.empty() ? StoppedBy::Budget : StoppedBy::Error;
   }
 
   /// Largest ratio of error to wanted error of what is drawn, where that is more than 1.
@@ -1038,7 +1045,7 @@ struct Roam::Impl {
     const auto name = [](uint32_t id) {
       return "side " + std::to_string(id & 1) + " of diamond " + std::to_string(id >> 1);
     };
-    size_t drawn = 0, inQueues = 0, inFrustum = 0;
+    size_t leaves = 0, inQueues = 0, inFrustum = 0;
     for (uint32_t d = 0; d < diamonds.size(); ++d) {
       const Diamond& here = diamonds[d];
       if (here.marked) return "diamond " + std::to_string(d) + " is still marked";
@@ -1063,11 +1070,10 @@ struct Roam::Impl {
         if (t.wanted && !here.split) return name(id) + " is wanted and not split";
         const bool leaf = started && !here.split && t.ground;
         if (leaf != (t.slot != kNone)) return name(id) + (leaf ? " is not drawn" : " is drawn");
-        drawn += leaf;
+        leaves += leaf;
         inFrustum += leaf && t.planes != kOutside;
-        if (leaf && triangles[t.slot].owner != id) return name(id) + " does not own its slot";
-        if (leaf && triangles[t.slot].vertices != verticesOf(here, s))
-          return name(id) + " has other vertices in its slot";
+        if (leaf && drawn[t.slot].owner != id) return name(id) + " does not own its slot";
+        if (leaf && mesh->triangles[t.slot] != verticesOf(here, s)) return name(id) + " has other vertices in its slot";
         inQueues += t.wanted || t.bucket > 0;
       }
       if (!here.split) continue;
@@ -1087,41 +1093,36 @@ struct Roam::Impl {
             return name(id) + " is in a queue that it does not belong to";
         }
     if (queued != inQueues) return "the queues hold sides that are gone";
-    if (drawn != triangles.size()) return "the index buffer holds triangles that are gone";
+    if (leaves != drawn.size() || leaves != mesh->triangles.size())
+      return "the index buffer holds triangles that are gone";
     if (inFrustum != visible) return "triangles in the frustum are miscounted";
     return {};
   }
 
-  void finish(RoamFrame& result) const {
-    result.triangleCount = static_cast<uint32_t>(triangles.size());
+  void finish(RoamFrame& result) {
+    result.mesh = mesh;
+    result.revision = mesh->revision;
+    result.triangleCount = static_cast<uint32_t>(drawn.size());
     result.trianglesInFrustum = visible;
-    result.vertexSlots = static_cast<uint32_t>(vertexHeights.size());
     result.operations = operations;
-    if (frame == 1) writeCorners(result);
-    result.vertices.reserve(result.vertices.size() + touchedVertices.size());
-    for (const uint32_t d : touchedVertices)
-      if (diamonds[d].split) writeCentre(result, d);
-    result.triangles.reserve(touchedSlots.size());
+    std::sort(touchedVertices.begin(), touchedVertices.end());
+    touchedVertices.erase(std::unique(touchedVertices.begin(), touchedVertices.end()), touchedVertices.end());
+    result.changedVertices = touchedVertices;
+    result.changedTriangles.reserve(touchedSlots.size());
+    std::sort(touchedSlots.begin(), touchedSlots.end());
     for (const uint32_t slot : touchedSlots)
-      if (slot < triangles.size()) result.triangles.push_back({slot, triangles[slot].vertices});
-  }
-  void writeCorners(RoamFrame& result) const {
-    const int across = patches.count.x + 1;
-    for (uint32_t slot = 0; slot < cornerSlots; ++slot) {
-      const glm::ivec2 corner(static_cast<int>(slot) % across, static_cast<int>(slot) / across);
-      result.vertices.push_back({slot, sampleAt(2 * patches.side * corner), vertexHeights[slot]});
-    }
-  }
-  void writeCentre(RoamFrame& result, uint32_t d) const {
-    result.vertices.push_back({vertexOf(d), sampleAt(diamonds[d].centre), vertexHeights[vertexOf(d)]});
+      if (slot < drawn.size() && (result.changedTriangles.empty() || result.changedTriangles.back() != slot))
+        result.changedTriangles.push_back(slot);
   }
 };
 
 Roam::Roam(const city::HeightField& field, const ErrorTable& errors) : impl_(std::make_unique<Impl>(field, errors)) {}
 Roam::~Roam() = default;
-Roam::Roam(const Roam& other) : impl_(std::make_unique<Impl>(*other.impl_)) {}
+Roam::Roam(const Roam& other) : impl_(std::make_unique<Impl>(*other.impl_)) {
+  impl_->mesh = std::make_shared<RoamMesh>(*impl_->mesh);
+}
 Roam& Roam::operator=(const Roam& other) {
-  if (this != &other) impl_ = std::make_unique<Impl>(*other.impl_);
+  if (this != &other) *this = Roam(other);
   return *this;
 }
 Roam::Roam(Roam&&) noexcept = default;
@@ -1142,28 +1143,15 @@ RoamFrame Roam::refine(double metres, uint32_t budget) {
   return impl_->run(eye, budget, std::numeric_limits<double>::infinity());
 }
 
-RoamFrame Roam::everything() const {
-  RoamFrame result;
-  impl_->finish(result);
-  result.vertices.clear();
-  result.triangles.clear();
-  impl_->writeCorners(result);
-  for (uint32_t d = 0; d < impl_->diamonds.size(); ++d)
-    if (impl_->diamonds[d].split) impl_->writeCentre(result, d);
-  for (uint32_t slot = 0; slot < impl_->triangles.size(); ++slot)
-    result.triangles.push_back({slot, impl_->triangles[slot].vertices});
-  return result;
-}
-
 RoamErrors Roam::errors() const {
   const Impl& roam = *impl_;
   RoamErrors errors;
   double area = 0, metresSquared = 0, pixelsSquared = 0;
   Batch batch;
-  for (size_t i = 0; i < roam.triangles.size(); ++i) {
-    const uint32_t id = roam.triangles[i].owner;
+  for (size_t i = 0; i < roam.drawn.size(); ++i) {
+    const uint32_t id = roam.drawn[i].owner;
     if (roam.side(id).planes != kOutside) roam.addToBatch(batch, id);
-    if (batch.count < Batch::kLanes && i + 1 < roam.triangles.size()) continue;
+    if (batch.count < Batch::kLanes && i + 1 < roam.drawn.size()) continue;
     const Batch::Lanes ratios = roam.ratiosOf(batch);
     for (size_t l = 0; l < batch.count; ++l) {
       const Side& t = roam.side(batch.side[l]);
@@ -1205,7 +1193,8 @@ std::string Roam::broken() const {
 size_t Roam::bytes() const {
   const Impl& roam = *impl_;
   return sizeof(Impl) + roam.diamonds.capacity() * sizeof(Diamond) + roam.vertexHeights.capacity() * sizeof(float) +
-         roam.triangles.capacity() * sizeof(Drawn) + roam.deferral.size() * sizeof(Deferral::Entry);
+         roam.drawn.capacity() * sizeof(Drawn) + roam.mesh->triangles.capacity() * sizeof(roam.mesh->triangles[0]) +
+         roam.mesh->vertices.capacity() * sizeof(RoamMesh::Vertex) + roam.deferral.size() * sizeof(Deferral::Entry);
 }
 
 }  // namespace vicus::terrain

@@ -21,6 +21,7 @@
 
 #include "city/height_field.hpp"
 #include "city/knob.hpp"
+#include "city/roam_frame.hpp"
 #include "city/view_state.hpp"
 #include "terrain/error_table.hpp"
 
@@ -39,39 +40,9 @@ struct RoamSettings {
   bool frustum = true;
 };
 
-enum class StoppedBy : uint8_t { Error, Budget, Time };
-
-/// A triangle of the index buffer that has new vertices, counter-clockwise from above.
-struct TriangleWrite {
-  uint32_t slot = 0;
-  std::array<uint32_t, 3> vertices{};  ///< slots of the vertex buffer
-};
-
-/// A vertex of the vertex buffer that has a new place: a sample of the field and its height.
-struct VertexWrite {
-  uint32_t slot = 0;
-  glm::ivec2 sample{0};  ///< column and row
-  float height = 0;      ///< metres above the city's origin
-};
-
-struct RoamOperations {
-  uint32_t splits = 0, merges = 0;  ///< triangles cut in two, pairs of triangles joined
-  uint32_t evaluations = 0;         ///< priorities worked out
-  uint32_t frustumTests = 0;
-};
-
-/// What one frame changed. Applied in order to the buffers of the frames before, they hold the mesh.
-struct RoamFrame {
-  std::vector<VertexWrite> vertices;
-  std::vector<TriangleWrite> triangles;
-  uint32_t triangleCount = 0;       ///< slots 0 … triangleCount − 1 are the mesh
-  uint32_t vertexSlots = 0;         ///< vertex slots are below this; it never shrinks
-  uint32_t trianglesInFrustum = 0;  ///< of the mesh, triangles that may be seen
-  StoppedBy stoppedBy = StoppedBy::Error;
-  /// No triangle in the frustum has more: the wanted error, or the largest left where budget or time stopped. Pixels.
-  double pixelError = 0;
-  RoamOperations operations;
-};
+using city::RoamFrame;
+using city::RoamMesh;
+using city::StoppedBy;
 
 /// Errors of the mesh in the frustum. A triangle counts with its largest vertical error over all its samples, so the
 /// root mean squares (weighted by the triangles' area on the plan) are upper bounds too.
@@ -100,9 +71,6 @@ class Roam {
   /// Brings the mesh to an error in metres, > 0, the same everywhere.
   RoamFrame refine(double metres, uint32_t budget = std::numeric_limits<uint32_t>::max());
 
-  /// The whole mesh as writes, for buffers that are still empty.
-  RoamFrame everything() const;
-
   /// Errors with regard to the last view; pixels are 0 after `refine`.
   RoamErrors errors() const;
 
@@ -120,7 +88,7 @@ class Roam {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Knobs `roam`, `roam.pixel_error`, `roam.budget`.
+/// Knobs `roam`, `roam.pixel_error`, `roam.budget`, `roam.milliseconds`.
 std::span<const city::Knob> roamKnobs();
 
 }  // namespace vicus::terrain

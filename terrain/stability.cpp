@@ -67,8 +67,8 @@ Outcome follow(const HeightField& field, const std::vector<ViewState>& views, co
   for (const ViewState& view : views) {
     const RoamFrame frame = roam.update(view, settings);
     mesh.apply(frame);
-    const MeshFaults faults = findFaults(field, mesh);
-    const MeasuredError error = measureError(field, mesh, &view);
+    const MeshFaults faults = findFaults(field, mesh.held);
+    const MeasuredError error = measureError(field, mesh.held, &view);
     const bool whole = table.filled.empty();
     outcome.faults += whole ? std::abs(faults.coveredArea - static_cast<double>(cells)) : 0;
     outcome.faults += static_cast<double>(faults.cracks + faults.flipped + faults.twisted + error.uncovered) +

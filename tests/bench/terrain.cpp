@@ -83,7 +83,7 @@ void exactErrors(benchmark::State& state) {
   const city::HeightField field = makeLandscape(static_cast<int>(state.range(0)), Landscape::Hills);
   size_t bytes = 0;
   for (auto _ : state) {
-    const ErrorTable table = buildErrorTable(field, static_cast<unsigned>(state.range(1)));
+    const ErrorTable table = buildErrorTable(field, {}, static_cast<unsigned>(state.range(1)));
     bytes = table.bytes();
     benchmark::DoNotOptimize(table);
   }
@@ -131,7 +131,7 @@ void frames(benchmark::State& state, Traveller traveller) {
     ++count;
     operations += frame.operations.splits + frame.operations.merges;
     triangles += frame.triangleCount;
-    writes += frame.triangles.size();
+    writes += frame.changedTriangles.size();
     if (count % 100 != 0) continue;
     const double again = threadSeconds();
     Roam anew(ground.field, ground.errors);

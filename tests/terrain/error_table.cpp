@@ -101,8 +101,8 @@ TEST(ErrorTable, HoldsTheLargestErrorOverAllSamplesOfEachTriangle) {
 
 TEST(ErrorTable, DoesNotDependOnThreads) {
   const HeightField field = makeLandscape(200, Landscape::Hills);
-  const ErrorTable one = buildErrorTable(field, 1);
-  for (const unsigned threads : {2U, 3U, 16U}) EXPECT_EQ(buildErrorTable(field, threads).codes, one.codes);
+  const ErrorTable one = buildErrorTable(field, {}, 1);
+  for (const unsigned threads : {2U, 3U, 16U}) EXPECT_EQ(buildErrorTable(field, {}, threads).codes, one.codes);
 }
 
 TEST(ErrorTable, LeavesOutWhatHasNoData) {

@@ -11,14 +11,14 @@ namespace {
 /// A flat field of 3 × 3 samples and a mesh of its corners and centre.
 struct Square {
   city::HeightField field;
-  MeshBuffers mesh;
+  RoamMesh mesh;
 
   Square() {
     field.size = {3, 3};
     field.heights.assign(9, 0);
     for (const glm::ivec2 p :
          {glm::ivec2(0, 0), glm::ivec2(2, 0), glm::ivec2(2, 2), glm::ivec2(0, 2), glm::ivec2(1, 1)})
-      mesh.vertices.push_back({static_cast<uint32_t>(mesh.vertices.size()), p, 0});
+      mesh.vertices.push_back({p, 0});
     mesh.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
   }
 };
