@@ -71,8 +71,11 @@ int check(const CheckOptions& options, const Surroundings& surroundings) {
 
   finishCache(*scene, console);
 
-  // One planner as asked and one with every technique off, each with what it remembers between views.
-  const plan::Planner planner(scene->city, scene->knobs);
+  // One planner as asked and one with every technique off, each with what it remembers between views. What hides what
+  // is checked on one ground: that at full detail.
+  city::Knobs onFullGround = scene->knobs;
+  onFullGround.set("roam", 0);
+  const plan::Planner planner(scene->city, onFullGround);
   const plan::Planner everything(scene->city, withoutTechniques(scene->knobs));
   plan::PlannerState state, everythingState;
   city::Random random(options.seed);

@@ -11,6 +11,7 @@
 
 #include "city/random.hpp"
 #include "culling/exact_visibility.hpp"
+#include "plan/ground_weights.hpp"
 
 namespace vicus::plan {
 namespace {
@@ -115,13 +116,13 @@ std::string decisions(const city::FramePlan& plan) {
 
 TEST(Planner, makesOnlyTheStepsThatTheSceneNeeds) {
   EXPECT_THAT(Planner(makeTown({}), knobs()).steps(),
-              ElementsAre("frustum tiles", "frustum buildings", "frustum trees", "frustum monuments"));
+              ElementsAre("frustum tiles", "frustum buildings", "frustum trees", "frustum monuments", "roam"));
   EXPECT_THAT(Planner(makeTown({.trees = 0}), knobs()).steps(),
-              ElementsAre("frustum tiles", "frustum buildings", "frustum monuments"));
+              ElementsAre("frustum tiles", "frustum buildings", "frustum monuments", "roam"));
   EXPECT_THAT(Planner(makeTown({.monuments = 0}), knobs()).steps(),
-              ElementsAre("frustum tiles", "frustum buildings", "frustum trees"));
+              ElementsAre("frustum tiles", "frustum buildings", "frustum trees", "roam"));
   EXPECT_THAT(Planner(makeTown({.buildings = 0, .trees = 0, .monuments = 0}), knobs()).steps(),
-              ElementsAre("frustum tiles"));
+              ElementsAre("frustum tiles", "roam"));
   EXPECT_THAT(Planner(makeTown({.buildings = 0, .trees = 0, .terrain = false}), knobs()).steps(),
               ElementsAre("frustum monuments"));
   EXPECT_THAT(Planner(makeTown({.buildings = 0, .trees = 0, .monuments = 0, .terrain = false}), knobs()).steps(),
@@ -145,7 +146,7 @@ TEST(Planner, stagesAreTheStepsInTheirOrder) {
 TEST(Planner, offDrawsEverything) {
   const city::City town = makeTown({});
   const Planner planner(town, knobs(false));
-  EXPECT_THAT(planner.steps(), ElementsAre("all tiles", "all buildings", "all trees", "all monuments"));
+  EXPECT_THAT(planner.steps(), ElementsAre("all tiles", "all buildings", "all trees", "all monuments", "roam"));
   PlannerState state;
   const city::FramePlan plan = planner.plan(town, viewAt(0, 0, 1), 0.016, state);
   EXPECT_THAT(plan.buildings.drawn, ElementsAre(city::Range{0, 300}));
@@ -359,6 +360,63 @@ TEST(PlanKnobs, areDeclaredWithAllTheirWords) {
     for (const std::string_view text : {knob.name, knob.unit, knob.meaning, knob.tooSmall, knob.tooLarge})
       EXPECT_FALSE(text.empty()) << knob.name;
   }
+}
+
+/// A town on hills 20 m high.
+city::City makeHillTown() {
+  city::City town = makeTown({});
+  for (int row = 0; row < town.terrain->size.y; ++row)
+    for (int column = 0; column < town.terrain->size.x; ++column)
+      town.terrain->at(column, row) = static_cast<float>(10 * std::sin(column * 0.9) * std::cos(row * 0.7));
+  town.terrain->updateRange();
+  return town;
+}
+
+TEST(PlannerGround, FollowsEachViewByItself) {
+  const city::City town = makeHillTown();
+  const Planner planner(town, knobs());
+  PlannerState eye, other;
+  const city::FramePlan first = planner.plan(town, viewAt(0, 0, 1), 0.016, eye);
+  const city::FramePlan elsewhere = planner.plan(town, viewAt(300, 300, 4), 0.016, other);
+  ASSERT_TRUE(first.roam && elsewhere.roam);
+  EXPECT_NE(first.roam->mesh, elsewhere.roam->mesh);
+  EXPECT_EQ(first.roam->pixelError, 2);
+  EXPECT_LT(first.roam->triangleCount, town.terrain->triangleCount());
+  // The same view again changes nothing; another one goes on from there.
+  const city::FramePlan again = planner.plan(town, viewAt(0, 0, 1), 0.016, eye);
+  EXPECT_EQ(again.roam->mesh, first.roam->mesh);
+  EXPECT_EQ(again.roam->revision, first.roam->revision + 1);
+  EXPECT_THAT(again.roam->changedTriangles, IsEmpty());
+  EXPECT_FALSE(planner.plan(town, viewAt(300, 300, 4), 0.016, eye).roam->changedTriangles.empty());
+}
+
+TEST(PlannerGround, IsAtFullDetailWithoutTheTechniqueAndNotThereWithoutTerrain) {
+  const city::City town = makeHillTown(), plain = makeTown({.terrain = false});
+  city::Knobs off = knobs();
+  EXPECT_EQ(off.set("roam", 0), "");
+  PlannerState state;
+  EXPECT_FALSE(Planner(town, off).plan(town, viewAt(0, 0, 1), 0.016, state).roam);
+  EXPECT_EQ(feature(Planner(town, off), "roam").why, "knob");
+  EXPECT_FALSE(Planner(plain, knobs()).plan(plain, viewAt(0, 0, 1), 0.016, state).roam);
+  EXPECT_FALSE(state.ground);
+  EXPECT_EQ(feature(Planner(plain, knobs()), "roam").why, "no height field");
+  EXPECT_TRUE(feature(Planner(town, knobs()), "roam").on);
+}
+
+TEST(PlannerGround, WeighsErrorsUnderThingsAndAlongTheBorder) {
+  const city::City town = makeHillTown();
+  const std::vector<float> weights = groundWeights(town);
+  const city::HeightField& field = *town.terrain;
+  ASSERT_EQ(weights.size(), field.heights.size());
+  const auto at = [&](int column, int row) { return weights[static_cast<size_t>(row * field.size.x + column)]; };
+  EXPECT_EQ(at(0, 7), kWeightOfBorder);
+  EXPECT_EQ(at(32, 32), kWeightOfBorder);
+  for (const city::Instance& i : town.buildings.instances) {
+    const glm::ivec2 cell((glm::dvec2(i.position) - field.origin) / field.spacing);
+    for (const glm::ivec2 corner : {glm::ivec2(0, 0), glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(1, 1)})
+      EXPECT_GE(at(cell.x + corner.x, cell.y + corner.y), kWeightUnderThings);
+  }
+  EXPECT_THAT(groundWeights(makeTown({.terrain = false})), IsEmpty());
 }
 
 }  // namespace
