@@ -27,7 +27,8 @@ struct MeshFaults {
   uint64_t cracks =
       0;  ///< edges of one triangle alone with a vertex of another on them, or drawn twice in one direction
   uint64_t flipped = 0;    ///< triangles that are not counter-clockwise from above, or without area
-  uint64_t twisted = 0;    ///< vertices whose height is not that of their sample, where that has data
+  uint64_t twisted = 0;    ///< vertices whose height is not that of their sample, where that has data; some are while
+                           ///< vertices move between a coarser mesh and their own height
   double coveredArea = 0;  ///< cells
 };
 MeshFaults findFaults(const city::HeightField& field, const RoamMesh& mesh);

@@ -29,6 +29,7 @@ constexpr uint32_t kLastBucket = 250;
 /// One triangle of a diamond, while it is in the tree: drawn, or split into two of the next level.
 struct Side {
   float error = 0;         ///< metres
+  float weight = 0;        ///< how far this side wants its split to be complete, 0 … 1
   BucketLinks queue;       ///< its place in its bucket
   uint32_t stamp = 0;      ///< changes whenever a deferred look at it becomes void
   uint32_t slot = kNone;   ///< in the index buffer, while it is drawn
@@ -48,6 +49,7 @@ struct alignas(128) Diamond {
   std::array<uint32_t, 4> child{kNone, kNone, kNone, kNone};
   std::array<uint32_t, 4> corner{};  ///< vertex slots of b, p0, a, p1
   std::array<Side, 2> side;
+  float weight = 0;  ///< while it is split: how far its centre is from where it was to its own height
   uint8_t splitChildren = 0;
   uint8_t reason = kNoReason;
   bool split = false;
@@ -150,7 +152,9 @@ struct Eye {
   /// eye).
   float scaleSquared = 0;
   float scale = 0;
-  double pixelsPerRatio = 0;      ///< the wanted error
+  double pixelsPerRatio = 0;      ///< the error in pixels at which splits begin
+  double wantedPixels = 0;        ///< at which they are complete
+  float band = 1;                 ///< pixelsPerRatio / wantedPixels; 1: splits are complete at once
   std::array<Plane, 6> planes{};  ///< the four sides, near and far
   uint8_t allPlanes = 0;
 
@@ -168,8 +172,10 @@ Eye eyeOf(const city::ViewState& view, const RoamSettings& settings, const city:
   eye.rest = glm::vec2(glm::dvec2(eye.position) - glm::dvec2(eye.place) * field.spacing / 2.0);
   eye.height = static_cast<float>(eye.position.z);
   eye.heightRest = static_cast<float>(eye.position.z - static_cast<double>(eye.height));
-  eye.pixelsPerRatio = settings.pixelError;
-  const double scale = city::pixelsPerUnitSlope(view) / settings.pixelError;
+  eye.wantedPixels = settings.pixelError;
+  eye.pixelsPerRatio = settings.pixelError * settings.morph;
+  eye.band = static_cast<float>(settings.morph);
+  const double scale = city::pixelsPerUnitSlope(view) / eye.pixelsPerRatio;
   eye.scaleSquared = static_cast<float>(scale * scale);
   eye.scale = static_cast<float>(scale);
   if (!settings.frustum) return eye;
@@ -220,7 +226,9 @@ struct Roam::Impl {
   std::shared_ptr<RoamMesh> mesh = std::make_shared<RoamMesh>();
   std::vector<Drawn> drawn;  ///< by slot of the mesh's triangles
   std::vector<uint32_t> touchedSlots, touchedVertices;
-  uint32_t visible = 0;  ///< triangles in the frustum
+  std::vector<uint32_t> reweigh;  ///< diamonds whose weight may have changed
+  double statedPixels = 0;        ///< the error of the last frame
+  uint32_t visible = 0;           ///< triangles in the frustum
 
   city::RoamOperations operations;
   std::vector<uint32_t> group, work;  ///< of `reground`
@@ -429,6 +437,7 @@ struct Roam::Impl {
     for (size_t l = 0; l < batch.count; ++l) {
       const uint32_t id = batch.side[l];
       Side& t = side(id);
+      setWeight(id, t, weightOf(reaches[l], distances[l]));
       const uint32_t bucket = bucketOf(ratios[l]);
       if (bucket != t.bucket) setBucket(id, t, bucket);
       ++t.stamp;
@@ -442,11 +451,126 @@ struct Roam::Impl {
   /// wanted error.
   float slackOf(float ratioSquared, uint32_t bucket, float distance, float reach) const {
     if (bucket == 0) return distance - reach;
-    if (!ordered) return reach - distance;
+    if (eye.band < 1) {  // below the band it rests; within it, until the weight is a step on
+      const float complete = reach * eye.band;
+      const float step = kWeightStep * distance * distance * (1 - eye.band) / complete;
+      return std::min(distance <= complete ? complete - distance : step, slackInOrder(ratioSquared, bucket, distance));
+    }
+    return std::min(reach - distance, slackInOrder(ratioSquared, bucket, distance));
+  }
+  float slackInOrder(float ratioSquared, uint32_t bucket, float distance) const {
+    if (!ordered) return std::numeric_limits<float>::infinity();
     const float farther = distance * (std::sqrt(ratioSquared / bucketFloor(bucket)) - 1);
     if (bucket == kLastBucket) return farther;
     const float nearer = distance * (1 - std::sqrt(ratioSquared / bucketFloor(bucket + 1)));
     return std::min(farther, nearer);
+  }
+
+  // --- geomorphs -----------------------------------------------------------------------------------------------------
+
+  /// Weights are looked at again when they may be off by this; at two pixels that is a sixteenth of one.
+  static constexpr float kWeightStep = 1.0F / 32;
+
+  /// How far a split must be complete: from 0 where it begins to 1 at the wanted error. A step more than that, so that
+  /// it suffices until the next look.
+  float weightOf(float reach, float distance) const {
+    if (!(reach > distance)) return 0;
+    const float needed = (reach / distance - 1) * eye.band / (1 - eye.band);
+    return needed + kWeightStep < 1 ? needed + kWeightStep : 1;
+  }
+  void setWeight(uint32_t id, Side& t, float weight) {
+    if (t.weight == weight) return;
+    t.weight = weight;
+    if (diamonds[id >> 1].split) reweigh.push_back(id >> 1);
+  }
+
+  /// Brings weights and the heights that hang on them up to date.
+  ///
+  /// Let the mesh of u, 0 < u ≤ 1, be the one that splits just the diamonds whose weight is at least u. A diamond has
+  /// no smaller a weight than those that need its split, so each is a mesh without cracks; and none leaves a triangle
+  /// whose own weight is 1 unsplit, so each has no more than the wanted error. What is drawn is the mean of them all,
+  /// and has no more than that either.
+  void morph() {
+    for (size_t i = 0; i < reweigh.size(); ++i) {
+      const uint32_t d = reweigh[i];
+      if (!diamonds[d].split) continue;
+      const float weight = eye.band < 1 ? weightNeeded(d) : 1;
+      if (weight == diamonds[d].weight) continue;
+      diamonds[d].weight = weight;
+      for (const uint32_t parent : diamonds[d].parent)
+        if (parent != kNone) reweigh.push_back(parent);
+      group.clear();
+      group.push_back(d);
+      while (!group.empty()) {  // a centre's height moves those of the splits around it
+        const uint32_t at = group.back();
+        group.pop_back();
+        if (diamonds[at].marked) continue;
+        diamonds[at].marked = true;
+        work.push_back(at);
+        for (const uint32_t child : diamonds[at].child)
+          if (child != kNone && diamonds[child].split && !diamonds[child].marked) group.push_back(child);
+      }
+    }
+    reweigh.clear();
+    for (const uint32_t d : work) {
+      diamonds[d].marked = false;
+      const float height = morphedHeight(d);
+      RoamMesh::Vertex& vertex = mesh->vertices[vertexOf(d)];
+      if (height == vertex.height) continue;
+      vertex.height = height;
+      touchedVertices.push_back(vertexOf(d));
+      ++operations.morphs;
+    }
+    work.clear();
+  }
+  float weightNeeded(uint32_t d) const {
+    const Diamond& here = diamonds[d];
+    if (here.pressed) return 1;  // its triangles' places in samples are not halved where they are pressed together
+    float weight = 0;
+    for (const Side& t : here.side)
+      if (t.present) weight = std::max(weight, t.weight);
+    if (here.splitChildren > 0)
+      for (const uint32_t child : here.child)
+        if (child != kNone && diamonds[child].split) weight = std::max(weight, diamonds[child].weight);
+    return weight;
+  }
+
+  /// Mean height of the meshes of u = 0 … 1 at a diamond's centre. Up from it, each triangle is the one around it
+  /// in the meshes of u between its own weight and the weight of the split that made it.
+  float morphedHeight(uint32_t d) const {
+    const Diamond& here = diamonds[d];
+    const float own = vertexHeights[vertexOf(d)];
+    float below = here.weight;
+    if (below >= 1) return own;
+    float height = below * own;
+    uint32_t id = 2 * d + (here.side[0].present ? 0U : 1U);
+    while (below < 1) {
+      const uint32_t parent = diamonds[id >> 1].parent[id & 1];
+      const float above = parent == kNone ? 1 : std::max(diamonds[parent].weight, below);
+      if (above > below) height += (above - below) * heightInTriangle(id, here.centre);
+      below = above;
+      if (parent == kNone) break;
+      id = 2 * parent + (side(id).childIndex >> 1);
+    }
+    return height;
+  }
+  /// How far the farthest corner of a triangle is from its own height.
+  float displacement(uint32_t id) const {
+    float most = 0;
+    for (const uint32_t v : verticesOf(diamonds[id >> 1], id & 1))
+      most = std::max(most, std::abs(mesh->vertices[v].height - vertexHeights[v]));
+    return most;
+  }
+  /// Height of a triangle's plane, corners at their own heights, at a place in half samples.
+  float heightInTriangle(uint32_t id, glm::ivec2 at) const {
+    const Diamond& d = diamonds[id >> 1];
+    const auto places = cornersOf(d, id & 1);
+    const auto vertices = verticesOf(d, id & 1);
+    const float za = vertexHeights[vertices[0]], zb = vertexHeights[vertices[1]], zp = vertexHeights[vertices[2]];
+    const glm::vec2 ab(places[1] - places[0]), fromMiddle(at - d.centre), up(places[2] - d.centre);
+    const float along = glm::dot(fromMiddle, ab) / glm::dot(ab, ab), rise = glm::dot(fromMiddle, up) / glm::dot(up, up);
+    const float middle = (za + zb) / 2;
+    return middle + along * (zb - za) + rise * (zp - middle);
   }
 
   /// A side that needs no look until its place in the frustum changes.
@@ -457,6 +581,7 @@ struct Roam::Impl {
     Side& t = side(id);
     if (idle(t)) {
       ++t.stamp;
+      setWeight(id, t, 0);
       if (t.bucket != 0) setBucket(id, t, 0);
       return;
     }
@@ -603,6 +728,8 @@ struct Roam::Impl {
     Diamond& here = diamonds[d];
     assert(!here.split && !here.finest);
     here.split = true;
+    here.weight = eye.band < 1 ? -1.0F : 1.0F;  // not yet worked out
+    if (eye.band < 1) reweigh.push_back(d);
     for (const uint32_t parent : here.parent)
       if (parent != kNone) ++diamonds[parent].splitChildren;
 
@@ -654,11 +781,12 @@ struct Roam::Impl {
     if (reach < around.least) {
       ++t.stamp;
       deferral.put(id, t.stamp, path, around.least - reach);
-    } else if (reach > around.centre && !ordered) {
+    } else if (reach * eye.band > around.centre && !ordered) {
+      setWeight(id, t, 1);
       const float ratio = reach / around.centre;
       setBucket(id, t, std::max(1U, bucketOf(ratio * ratio)));
       ++t.stamp;
-      deferral.put(id, t.stamp, path, reach - around.centre);
+      deferral.put(id, t.stamp, path, reach * eye.band - around.centre);
     } else {
       return false;
     }
@@ -695,6 +823,7 @@ struct Roam::Impl {
     t.present = true;
     t.wanted = false;
     t.bucket = 0;
+    t.weight = 0;
     t.slot = kNone;
     t.childIndex = static_cast<uint8_t>(k);
     return 2 * m + s;
@@ -706,7 +835,10 @@ struct Roam::Impl {
     here.split = false;
     here.reason = kNoReason;
     for (const uint32_t parent : here.parent)
-      if (parent != kNone) --diamonds[parent].splitChildren;
+      if (parent != kNone) {
+        --diamonds[parent].splitChildren;
+        if (eye.band < 1) reweigh.push_back(parent);
+      }
     for (uint32_t s = 0; s < 2; ++s) {
       if (!here.side[s].present) continue;
       ++operations.merges;
@@ -882,12 +1014,16 @@ struct Roam::Impl {
     touchedSlots.clear();
     RoamFrame result;
     result.stoppedBy = StoppedBy::Error;
-    result.pixelError = next.pixelsPerRatio;
+    result.pixelError = next.wantedPixels;
     if (!patches.empty()) {
       turnTo(next, budget);
       result.stoppedBy = refineAndCoarsen(budget, milliseconds);
-      if (result.stoppedBy != StoppedBy::Error) result.pixelError = largestRatio() * next.pixelsPerRatio;
+      if (result.stoppedBy != StoppedBy::Error)
+        result.pixelError = std::max(next.wantedPixels, largestRatio() * next.pixelsPerRatio);
+      work.clear();
+      morph();
     }
+    statedPixels = result.pixelError;
     finish(result);
     return result;
   }
@@ -899,7 +1035,11 @@ struct Roam::Impl {
     if (first) start();
     if (!first && before == next && ordered == mayBind(budget)) return;
     if (before.planes != next.planes || before.position != next.position || first) carryFrustumDown();
-    const bool rescaled = before.scaleSquared != next.scaleSquared || before.perspective != next.perspective;
+    const bool rescaled =
+        before.scaleSquared != next.scaleSquared || before.perspective != next.perspective || before.band != next.band;
+    if (before.band != next.band)
+      for (uint32_t d = 0; d < diamonds.size(); ++d)
+        if (diamonds[d].split) reweigh.push_back(d);
     const bool wasOrdered = std::exchange(ordered, first || mayBind(budget));
     const bool reordered = ordered && !wasOrdered;
     if (next.perspective && before.perspective) path += glm::length(next.position - before.position);
@@ -1027,7 +1167,7 @@ struct Roam::Impl {
       const auto vertices = verticesOf(diamonds[*best >> 1], *best & 1);
       double height = 0;
       for (int i = 0; i < 3; ++i)
-        height += bestWeights[i] * static_cast<double>(vertexHeights[vertices[static_cast<size_t>(i)]]);
+        height += bestWeights[i] * static_cast<double>(mesh->vertices[vertices[static_cast<size_t>(i)]].height);
       return height;
     }
   }
@@ -1049,6 +1189,12 @@ struct Roam::Impl {
     for (uint32_t d = 0; d < diamonds.size(); ++d) {
       const Diamond& here = diamonds[d];
       if (here.marked) return "diamond " + std::to_string(d) + " is still marked";
+      if (here.split && started) {
+        const float needed = eye.band < 1 ? weightNeeded(d) : 1;
+        if (here.weight != needed) return "diamond " + std::to_string(d) + " has another weight than it needs";
+        if (mesh->vertices[vertexOf(d)].height != morphedHeight(d))
+          return "the centre of diamond " + std::to_string(d) + " is not at its height";
+      }
       uint32_t splitChildren = 0;
       for (uint32_t k = 0; k < 4; ++k) {
         if (here.child[k] == kNone) continue;
@@ -1130,6 +1276,7 @@ Roam& Roam::operator=(Roam&&) noexcept = default;
 
 RoamFrame Roam::update(const city::ViewState& view, const RoamSettings& settings) {
   assert(settings.pixelError > 0 && "the wanted error is above 0 pixels");
+  assert(settings.morph > 0 && settings.morph <= 1 && "splits begin between no error and the wanted one");
   const bool finite = std::isfinite(view.eye.x) && std::isfinite(view.eye.y) && std::isfinite(view.eye.z);
   const Eye next = finite || !impl_->started ? eyeOf(view, settings, *impl_->field) : impl_->eye;
   return impl_->run(next, settings.budget, settings.milliseconds);
@@ -1150,13 +1297,16 @@ RoamErrors Roam::errors() const {
   Batch batch;
   for (size_t i = 0; i < roam.drawn.size(); ++i) {
     const uint32_t id = roam.drawn[i].owner;
-    if (roam.side(id).planes != kOutside) roam.addToBatch(batch, id);
+    if (roam.side(id).planes != kOutside) {
+      roam.addToBatch(batch, id);
+      batch.error[batch.count - 1] += roam.displacement(id);
+    }
     if (batch.count < Batch::kLanes && i + 1 < roam.drawn.size()) continue;
     const Batch::Lanes ratios = roam.ratiosOf(batch);
     for (size_t l = 0; l < batch.count; ++l) {
-      const Side& t = roam.side(batch.side[l]);
-      const double metres = static_cast<double>(t.error);
-      const double pixels = t.error > 0 ? static_cast<double>(ratios[l]) * roam.eye.pixelsPerRatio : 0;
+      const auto metres = static_cast<double>(batch.error[l]);
+      const double pixels =
+          metres > 0 ? std::min(static_cast<double>(ratios[l]) * roam.eye.pixelsPerRatio, roam.statedPixels) : 0;
       const double abx = static_cast<double>(batch.b[0][l] - batch.a[0][l]),
                    aby = static_cast<double>(batch.b[1][l] - batch.a[1][l]);
       const double apx = static_cast<double>(batch.apex[0][l] - batch.a[0][l]),

@@ -36,6 +36,10 @@ struct RoamSettings {
   /// Most time for the splits and merges of one frame; what is left waits for the next. Infinite: the same input gives
   /// the same mesh on every machine.
   double milliseconds = std::numeric_limits<double>::infinity();
+  /// Part of the wanted error at which splits begin, above 0 to 1. From there to the wanted error their vertices move
+  /// from the coarser mesh to their own height, so that nothing jumps and the error stays below the wanted one. 0.75
+  /// takes 1.65 times the triangles of 1, which splits at once; nearer to 1 the move is a jump at common speeds.
+  double morph = 0.75;
   /// Refine only what may be seen. False for shadow views and references.
   bool frustum = true;
 };
@@ -44,8 +48,9 @@ using city::RoamFrame;
 using city::RoamMesh;
 using city::StoppedBy;
 
-/// Errors of the mesh in the frustum. A triangle counts with its largest vertical error over all its samples, so the
-/// root mean squares (weighted by the triangles' area on the plan) are upper bounds too.
+/// Errors of the mesh in the frustum. A triangle counts with its largest vertical error over all its samples, and how
+/// far its corners still are from their own heights, so the root mean squares (weighted by the triangles' area on the
+/// plan) are upper bounds too.
 struct RoamErrors {
   double largestMetres = 0, rmsMetres = 0;
   double largestPixels = 0, rmsPixels = 0;

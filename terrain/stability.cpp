@@ -71,8 +71,8 @@ Outcome follow(const HeightField& field, const std::vector<ViewState>& views, co
     const MeasuredError error = measureError(field, mesh.held, &view);
     const bool whole = table.filled.empty();
     outcome.faults += whole ? std::abs(faults.coveredArea - static_cast<double>(cells)) : 0;
-    outcome.faults += static_cast<double>(faults.cracks + faults.flipped + faults.twisted + error.uncovered) +
-                      (roam.broken().empty() ? 0 : 1);
+    outcome.faults += static_cast<double>(faults.cracks + faults.flipped + error.uncovered) +
+                      (settings.morph < 1 ? 0 : static_cast<double>(faults.twisted)) + (roam.broken().empty() ? 0 : 1);
     outcome.errorOfStated = std::max(outcome.errorOfStated, error.largestPixels / frame.pixelError);
     outcome.statedOfWanted = std::max(outcome.statedOfWanted, frame.pixelError / settings.pixelError);
     outcome.triangles = frame.triangleCount;
