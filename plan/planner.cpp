@@ -6,6 +6,7 @@
 #include <array>
 #include <cassert>
 #include <chrono>
+#include <limits>
 #include <mutex>
 #include <utility>
 
@@ -37,6 +38,11 @@ constexpr size_t kFewestBuildings = 50;
 bool hasTerrain(const City& city) {
   return city.terrain && !city.terrain->empty();
 }
+
+/// Samples of the largest field that can be drawn at full detail: 4 097² make 33 million triangles. Larger ones are
+/// always meshed, without the technique to a quarter of a pixel, whatever that takes.
+constexpr size_t kMostSamplesAtFullDetail = size_t{4097} * 4097;
+constexpr double kPixelsInPlaceOfFullDetail = 0.25;
 
 /// What the composition and the steps know of the scene: worked out once.
 struct Scene {
@@ -174,8 +180,13 @@ void lookAt(const City& city, const city::Knobs& knobs, Scene& scene) {
     scene.cullMap = scene.occluders.standing > 0;
     scene.cullMapOptions = {static_cast<uint32_t>(knobs["cull_map.size"]), scene.frustumCulling};
   }
-  scene.roam = knobs.on("roam") && hasTerrain(city);
-  if (scene.roam) {
+  const bool tooLarge = hasTerrain(city) && city.terrain->heights.size() > kMostSamplesAtFullDetail;
+  scene.roam = hasTerrain(city) && (knobs.on("roam") || tooLarge);
+  if (scene.roam && !knobs.on("roam")) {
+    scene.roamSettings.pixelError = kPixelsInPlaceOfFullDetail;
+    scene.roamSettings.budget = std::numeric_limits<uint32_t>::max();
+    scene.roamSettings.morph = 1;
+  } else if (scene.roam) {
     scene.roamSettings.pixelError = knobs["roam.pixel_error"];
     scene.roamSettings.budget = static_cast<uint32_t>(knobs["roam.budget"]);
     if (knobs["roam.milliseconds"] > 0) scene.roamSettings.milliseconds = knobs["roam.milliseconds"];
@@ -213,7 +224,7 @@ std::vector<FeatureReport> describe(const City& city, const city::Knobs& knobs, 
   features.push_back({"cull_map", true, scene.cullMap, std::move(why)});
 
   if (!knobs.on("roam"))
-    why = "knob";
+    why = scene.roam ? "the field is too large to be drawn at full detail" : "knob";
   else
     why = scene.roam ? "the ground is drawn as finely as the eye can tell" : "no height field";
   features.push_back({"roam", true, scene.roam, std::move(why)});

@@ -122,16 +122,36 @@ Paint coverAt(const city::GroundCover& cover, glm::dvec2 p, glm::dvec2 ragged) {
   return sum;
 }
 
-/// The field's normal between its samples' own, so that painting looks up instead of searching.
-glm::vec3 normalAt(const city::HeightField& field, const std::vector<glm::vec3>& normals, glm::dvec2 p) {
-  const glm::dvec2 cell = (p - field.origin) / field.spacing;
-  const int column = std::clamp(static_cast<int>(cell.x), 0, field.size.x - 2);
-  const int row = std::clamp(static_cast<int>(cell.y), 0, field.size.y - 2);
+/// The field's normals at every sample, or every few where the field is finer than the map, so that painting looks up
+/// instead of searching.
+struct Normals {
+  int stride = 1;  ///< samples
+  glm::ivec2 size{0};
+  std::vector<glm::vec3> at;
+};
+
+Normals normalsOf(const city::HeightField& field, int mapSize) {
+  Normals normals;
+  normals.stride = std::max(1, std::min(field.size.x, field.size.y) / mapSize);
+  normals.size = (field.size - 2) / normals.stride + 2;
+  for (int r = 0; r < normals.size.y; ++r)
+    for (int c = 0; c < normals.size.x; ++c)
+      normals.at.push_back(sampleNormal(field, std::min(c * normals.stride, field.size.x - 1),
+                                        std::min(r * normals.stride, field.size.y - 1)));
+  return normals;
+}
+
+/// The normal at a place, between the nearest.
+glm::vec3 normalAt(const city::HeightField& field, const Normals& normals, glm::dvec2 p) {
+  const glm::dvec2 cell = (p - field.origin) / (field.spacing * static_cast<double>(normals.stride));
+  const int column = std::clamp(static_cast<int>(cell.x), 0, normals.size.x - 2);
+  const int row = std::clamp(static_cast<int>(cell.y), 0, normals.size.y - 2);
   const glm::vec2 t(glm::clamp(cell - glm::dvec2(column, row), 0.0, 1.0));
   const glm::vec3* at =
-      normals.data() + static_cast<size_t>(row) * static_cast<size_t>(field.size.x) + static_cast<size_t>(column);
-  return glm::normalize(
-      glm::mix(glm::mix(at[0], at[1], t.x), glm::mix(at[field.size.x], at[field.size.x + 1], t.x), t.y));
+      normals.at.data() + static_cast<size_t>(row) * static_cast<size_t>(normals.size.x) + static_cast<size_t>(column);
+  const glm::vec3 south = glm::mix(at[0], at[1], t.x),
+                  north = glm::mix(at[normals.size.x], at[normals.size.x + 1], t.x);
+  return glm::normalize(glm::mix(south, north, t.y));
 }
 
 /// Light on a pixel over that on open level ground, which the shaders give it.
@@ -150,7 +170,7 @@ struct Painting {
   const city::HeightField& field;
   const city::GroundCover* cover;  ///< may be null
   std::vector<uint8_t> plain;      ///< for each cell of the cover
-  std::vector<glm::vec3> normals;  ///< for each sample of the field
+  Normals normals;
   const GroundShade& shade;
   const Light& light;
 };
@@ -221,12 +241,8 @@ GroundMap paintGroundMap(const city::HeightField& field, const city::GroundCover
   if (cover && (cover->size.x < 1 || cover->size.y < 1)) cover = nullptr;
   map.size = size;
   map.rgba.resize(4 * static_cast<size_t>(size) * static_cast<size_t>(size));
-  Painting from{field, cover, {}, std::vector<glm::vec3>(field.heights.size()), shade, light};
+  Painting from{field, cover, {}, normalsOf(field, size), shade, light};
   if (cover) from.plain = plainCells(*cover);
-  for (int r = 0; r < field.size.y; ++r)
-    for (int c = 0; c < field.size.x; ++c)
-      from.normals[static_cast<size_t>(r) * static_cast<size_t>(field.size.x) + static_cast<size_t>(c)] =
-          sampleNormal(field, c, r);
   const auto paintRows = [&](int first, int stride) {
     for (int row = first; row < size; row += stride) paintRow(map, from, row);
   };

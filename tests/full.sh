@@ -14,5 +14,6 @@ for scene in "${scenes[@]}"; do
   echo "Culling over 1 000 random views of $scene"
   "$vicus" check "$scene" --views 1000 --size 320x180
 done
-echo "ROAM: 10 000 random jumps, published counts on large fields"
+echo "ROAM: 10 000 random jumps, published counts and journeys on large fields, long journeys over real terrain"
 "$1/tests/test_terrain" --gtest_also_run_disabled_tests --gtest_filter='DISABLED_*InFull.*' --gtest_brief=1
+"$1/tests/test_app" --gtest_also_run_disabled_tests --gtest_filter='DISABLED_RoamBoundInFull.*' --gtest_brief=1

@@ -213,7 +213,7 @@ std::optional<city::HeightField> readElevation(std::span<const ElevationRaster> 
     if (p.pixel.x * p.pixel.y < finest->pixel.x * finest->pixel.y) finest = &p;
   glm::dvec2 spacing = finest->pixel;
   const glm::dvec2 side(box.size());
-  const double times = std::max({1.0, side.x / spacing.x / kLargestField, side.y / spacing.y / kLargestField});
+  const double times = std::max({1.0, side.x / spacing.x / kLargestRaster, side.y / spacing.y / kLargestRaster});
   spacing *= times;
   const bool native = finest->aligned && placed.size() == 1 && times == 1;
   glm::dvec2 first = glm::dvec2(box.min) + 0.5 * spacing;
@@ -224,7 +224,7 @@ std::optional<city::HeightField> readElevation(std::span<const ElevationRaster> 
     const double south = std::round((finest->corner.y - box.min.y) / spacing.y);
     first = {finest->corner.x + (west + 0.5) * spacing.x, finest->corner.y - (south - 0.5) * spacing.y};
   }
-  size = glm::min(size, kLargestField);
+  size = glm::min(size, kLargestRaster);
 
   city::HeightField field;
   field.spacing = spacing;
@@ -250,7 +250,7 @@ std::optional<city::HeightField> readElevation(std::span<const ElevationRaster> 
   if (times > 1)
     diagnostics.warn(file, "",
                      CPLSPrintf("resampled from %.4g m to %.4g m, so that the terrain has at most %d samples to a side",
-                                finest->pixel.x, spacing.x, kLargestField));
+                                finest->pixel.x, spacing.x, kLargestRaster));
   if (missing > 0) {
     fillGaps(field.heights, size);
     const uint64_t left = countMissing(field.heights);

@@ -22,6 +22,9 @@ struct ElevationRaster {
   std::string crs;  ///< WKT; the file's own or what the user says; empty: unknown
 };
 
+/// Samples to a side that the height field of a raster may have: 2^14 + 1, 16 385² take 1 GB and ROAM as much again.
+constexpr int kLargestRaster = 16385;
+
 /// Why a raster cannot hold heights (a picture, no place on the earth); empty where it can.
 std::string whyNoElevation(GDALDataset& dataset);
 
@@ -35,7 +38,7 @@ struct ElevationRequest {
 };
 
 /// The rasters as one height field; where they overlap the first one counts. A raster in the city's own CRS keeps its
-/// samples, others are resampled; more than kLargestField samples to a side are averaged. Small gaps are filled
+/// samples, others are resampled; more than kLargestRaster samples to a side are averaged. Small gaps are filled
 /// (GDALFillNodata), larger ones stay NaN; both are reported. Nothing where no sample has data.
 std::optional<city::HeightField> readElevation(std::span<const ElevationRaster> rasters,
                                                const ElevationRequest& request, GdalMessages& messages,

@@ -11,7 +11,7 @@
 
 namespace vicus::assets {
 
-/// Samples to a side that a height field may have: 2^10 + 1.
+/// Samples to a side that a height field made from triangles or points may have: 2^10 + 1.
 constexpr int kLargestField = 1025;
 
 /// An empty field (all NaN) that covers `extent` in the plan, its samples at whole multiples of `spacing` metres from

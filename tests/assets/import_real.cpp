@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "assets/import/read_elevation.hpp"
 #include "import_files.hpp"
 
 namespace vicus::assets {
@@ -136,8 +137,8 @@ TEST(RealData, Elevation) {
                         Case{"dem/malta_dtm_40.tif", -6.5, 251.3}, Case{"dem/mt_rainier_90m.tif", 250, 4390}}) {
     const LoadResult r = load(realData(c.name));
     ASSERT_TRUE(r.city && r.city->terrain) << messagesOf(r.diagnostics);
-    EXPECT_LE(r.city->terrain->size.x, 1025);
-    EXPECT_LE(r.city->terrain->size.y, 1025);
+    EXPECT_LE(r.city->terrain->size.x, kLargestRaster);
+    EXPECT_LE(r.city->terrain->size.y, kLargestRaster);
     EXPECT_GE(r.city->terrain->minHeight + r.city->origin.z, c.lowest - 1) << c.name;
     EXPECT_LE(r.city->terrain->maxHeight + r.city->origin.z, c.highest + 1) << c.name;
     EXPECT_GT(r.city->terrain->maxHeight - r.city->terrain->minHeight, 0.9 * (c.highest - c.lowest)) << c.name;
