@@ -18,43 +18,23 @@
 #include "city/city.hpp"
 #include "city/frame_plan.hpp"
 #include "city/view_state.hpp"
+#include "culling/occluders.hpp"
 
 namespace vicus::culling {
 
-/// A wall that hides: upright, opaque from `bottom` to `top`, drawn on the right of a → b. In the building's frame.
-struct OccluderWall {
-  glm::dvec2 a{0}, b{0};
-  float bottom = 0, top = 0;
-  double reach = 0;                 ///< metres that storeys above stand out before it; an eye nearer may be inside them
-  uint32_t previous = city::kNone;  ///< wall of the same building whose b is this a (the very same point)
-  uint32_t next = city::kNone;      ///< wall whose a is this b
-};
-
-/// The walls of all building types, and which of them hide in which building: worked out once for a city.
-struct Occluders {
-  std::vector<OccluderWall> walls;
-  std::vector<city::Range> ofType;  ///< in `walls`, one for each building type
-  std::vector<float> recess;        ///< for each type: metres that the opaque surface may lie behind a wall's face
-  std::vector<uint32_t> firstOfBuilding;  ///< in `stands`; one more than there are buildings
-  std::vector<uint8_t> stands;            ///< 1: this wall of this building stands in the ground over its whole length
-  uint64_t standing = 0;                  ///< ones in `stands`
-  bool terrain = false;                   ///< what a line of sight meets beneath a wall is the height field
-  double lowest = 0;                      ///< without terrain: nothing in the city reaches lower
-  double highest = 0;                     ///< no building, tree or monument reaches higher
-};
-
-/// Chooses the walls: a type's occluder lines whose foot is at or below its ground, as high as the lines above them go
-/// on without a gap. Points of lines that lie within `kSamePoint` become one. A building's wall stands where the
-/// terrain is nowhere below its foot, so that no line of sight passes beneath it; in a city without terrain, where
-/// nothing reaches below its foot.
-Occluders occludersOf(const city::City& city);
-constexpr double kSamePoint = 1e-3;  ///< metres; corners of a closed building that differ by rounding
+/// Which map: the horizon by direction, the grid on the plan, or the latter as it was published in 2001.
+enum class CullMapKind : uint8_t { Horizon, Plan, Published };
 
 struct CullMapOptions {
   /// Columns of the whole horizon, a multiple of 4. Few: less is hidden. Many: more time. 8 192 is a column each 0.04°.
   uint32_t columns = 8192;
   /// The plan holds only what is within the view's edges, and only that part of the horizon is needed.
   bool onlyInView = true;
+  CullMapKind kind = CullMapKind::Horizon;
+  /// Of the plan's grids, to a side. Few: coarse shadows hide less. Many: more time.
+  uint32_t cells = 256;
+  /// Walls whose shadows are drawn on the plan, the nearest first.
+  uint32_t budget = 512;
 };
 
 /// What one view's culling did.
@@ -65,12 +45,25 @@ struct CullMapStats {
   bool gaveUp = false;     ///< the walk found too little hidden and left the rest as it was
 };
 
+/// What a person may look at: made only where it is asked for.
+struct CullMapView {
+  uint32_t columns = 0;        ///< of the horizon
+  std::vector<float> slopes;   ///< for each column; see `Horizon::slopes`
+  uint32_t cells = 0;          ///< of the plan's innermost grid, to a side, the eye in the middle
+  double cellSize = 0;         ///< metres
+  std::vector<float> heights;  ///< above the eye, row by row from the south; −∞ where nothing is hidden
+  struct Line {
+    glm::dvec2 a, b;
+  };
+  std::vector<Line> occluders;  ///< chosen walls, metres from the city's origin
+};
+
 /// Takes out of the plan's buildings, trees, monuments and tiles what cannot be seen because walls of buildings of the
 /// plan stand before it; runs that are dropped get DropReason::Occluded. Nothing is culled for an eye above all roofs,
 /// under the ground, outside a terrain and not above it, or not finite.
 ///
 /// Conservative: a box is dropped only if each point of it, moved by up to 1/64 of a pixel, lies behind such walls.
 CullMapStats cullOccluded(const city::City& city, const Occluders& occluders, const CullMapOptions& options,
-                          city::FramePlan& plan);
+                          city::FramePlan& plan, CullMapView* shown = nullptr);
 
 }  // namespace vicus::culling

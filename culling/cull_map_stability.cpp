@@ -70,17 +70,27 @@ std::vector<House> terraces(uint32_t seed, dvec2 place = {0, 0}, double scale = 
   return houses;
 }
 
+struct Box {
+  dvec3 min, max;
+};
+
+/// A house's box in double: its bounds are floats, a metre apart far from the origin.
+Box boxOf(const City& city, size_t building) {
+  const city::Instance& instance = city.buildings.instances[building];
+  const Aabbf& local = city.buildingTypes[instance.geometry].bounds;
+  return {instance.position + dvec3(local.min), instance.position + dvec3(local.max)};
+}
+
 /// Whether the straight line from the eye to the target meets a box before it arrives; boxes that only touch the line
 /// do not count, nor does the target's own box.
 bool blocked(const City& city, size_t target, dvec3 eye, dvec3 point) {
   const dvec3 way = point - eye;
   for (size_t k = 0; k < city.buildings.size(); ++k) {
     if (k == target) continue;
-    const Aabbf& box = city.buildings.bounds[k];
+    const Box box = boxOf(city, k);
     double from = 0, to = 1;
     for (glm::length_t axis = 0; axis < 3; ++axis) {
-      const double lo = static_cast<double>(box.min[axis]) - eye[axis],
-                   hi = static_cast<double>(box.max[axis]) - eye[axis];
+      const double lo = box.min[axis] - eye[axis], hi = box.max[axis] - eye[axis];
       if (way[axis] == 0) {
         if (lo > 0 || hi < 0) to = -1;
         continue;
@@ -110,7 +120,7 @@ void addView(Tally& tally, const City& city, const Occluders& occluders, const V
     if (run.reason != city::DropReason::Occluded) continue;
     tally.culled += run.range.count;
     for (uint32_t i = run.range.first; i < run.range.end(); ++i) {
-      const Aabbf& box = city.buildings.bounds[i];
+      const Box box = boxOf(city, i);
       constexpr int kSteps = 4;
       bool seen = false;
       for (int s = 0; s < (kSteps + 1) * (kSteps + 1) * 3 && !seen; ++s) {
@@ -118,7 +128,7 @@ void addView(Tally& tally, const City& city, const Occluders& occluders, const V
         const dvec3 t(s % (kSteps + 1) / static_cast<double>(kSteps),
                       s / (kSteps + 1) % (kSteps + 1) / static_cast<double>(kSteps),
                       1 - s / ((kSteps + 1) * (kSteps + 1)) * 0.5);
-        const dvec3 point = glm::mix(dvec3(box.min), dvec3(box.max), t);
+        const dvec3 point = glm::mix(box.min, box.max, t);
         const glm::dvec4 clip = city::clipFromEyeRelative(view) * glm::dvec4(point - view.eye, 1);
         const bool inPicture = clip.w > 0 && std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w;
         seen = inPicture && !blocked(city, i, view.eye, point);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cassert>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <mutex>
 #include <utility>
@@ -30,6 +31,11 @@ constexpr city::Knob kCullingKnobs[] = {
     {"cull_map.size", 8192, 64, 65536, "columns all round",
      "Into how many directions the horizon that houses make is divided.", "narrow houses hide nothing, more is drawn",
      "planning takes longer and hides hardly more"},
+    {"cull_map.kind", 0, 0, 2, "0, 1 or 2",
+     "Which map: 0 the horizon by direction, 1 grids on the plan, 2 the plan as published in 2001, which errs.",
+     "0: the fastest and the most hidden", "2: things that can be seen are missing"},
+    {"cull_map.cells", 256, 16, 2048, "cells to a side", "How fine the grids on the plan are (cull_map.kind 1 and 2).",
+     "coarse shadows hide less", "planning takes longer"},
 };
 
 /// Fewer buildings than these draw faster than they are sorted out.
@@ -178,7 +184,9 @@ void lookAt(const City& city, const city::Knobs& knobs, Scene& scene) {
   if (knobs.on("cull_map") && city.buildings.size() >= kFewestBuildings) {
     scene.occluders = culling::occludersOf(city);
     scene.cullMap = scene.occluders.standing > 0;
-    scene.cullMapOptions = {static_cast<uint32_t>(knobs["cull_map.size"]), scene.frustumCulling};
+    scene.cullMapOptions = {static_cast<uint32_t>(knobs["cull_map.size"]), scene.frustumCulling,
+                            static_cast<culling::CullMapKind>(std::clamp(std::round(knobs["cull_map.kind"]), 0.0, 2.0)),
+                            static_cast<uint32_t>(knobs["cull_map.cells"])};
   }
   const bool tooLarge = hasTerrain(city) && city.terrain->heights.size() > kMostSamplesAtFullDetail;
   scene.roam = hasTerrain(city) && (knobs.on("roam") || tooLarge);

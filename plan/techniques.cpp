@@ -3,7 +3,7 @@
 namespace vicus::plan {
 namespace {
 
-constexpr double kColumns[] = {256, 1024, 2048, 8192, 32768};
+constexpr double kColumns[] = {64, 128, 256, 512, 1024, 8192};
 constexpr double kPixelErrors[] = {0.5, 1, 2, 4, 8, 16};
 constexpr double kMultisamples[] = {1, 2, 4, 8};
 

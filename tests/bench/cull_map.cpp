@@ -25,7 +25,7 @@ culling::CullMapStats cullHidden(const test::BoxCity& town, const culling::Occlu
                                  city::FramePlan& plan) {
   const city::InstanceSet& set = town.city.buildings;
   culling::cullInstances(set, culling::boxTestFor(culling::frustumOf(plan.view), set.nodes[0].bounds), plan.buildings);
-  return culling::cullOccluded(town.city, occluders, {columns, true}, plan);
+  return culling::cullOccluded(town.city, occluders, {.columns = columns}, plan);
 }
 
 void cullMap(benchmark::State& state) {

@@ -187,6 +187,93 @@ TEST(CullMap, terracesFuse) {
   EXPECT_EQ(apart.hidden({14, -12, 1.7}), Seeds{behind}) << "side walls close a slit that is seen from aside";
 }
 
+/// A house with a gable roof: eaves at 6 m along x, ridge at 9 m over its middle.
+city::BuildingGeometry gabled() {
+  city::BuildingBuilder b("gabled");
+  b.beginLevel(0, 9);
+  const glm::vec3 c[] = {{0, 0, 0}, {10, 0, 0}, {10, 6, 0}, {0, 6, 0}};
+  const auto up = [](glm::vec3 p) { return p + glm::vec3(0, 0, 6); };
+  const glm::vec3 m(0, 3, 9), n(10, 3, 9);
+  for (size_t k = 0; k < 4; ++k) {
+    const glm::vec3 p = c[k], q = c[(k + 1) % 4], along = glm::normalize(q - p);
+    b.beginPlane(city::PlaneKind::Wall, 0, {along.y, -along.x, 0});
+    b.addQuad(p, q, up(q), up(p), 0);
+    b.addOccluder({glm::vec2(p), glm::vec2(q), 0, 6});
+  }
+  b.beginPlane(city::PlaneKind::Roof, 0, glm::normalize(glm::vec3(0, -3, 3)));
+  b.addQuad(up(c[0]), up(c[1]), n, m, 0);
+  b.beginPlane(city::PlaneKind::Roof, 0, glm::normalize(glm::vec3(0, 3, 3)));
+  b.addQuad(up(c[2]), up(c[3]), m, n, 0);
+  for (const bool east : {false, true}) {
+    b.beginPlane(city::PlaneKind::Gable, 0, {east ? 1 : -1, 0, 0});
+    const glm::vec3 triangle[] = {up(east ? c[1] : c[3]), up(east ? c[2] : c[0]), east ? n : m};
+    b.addConvex(triangle, {0, east ? 1 : -1, 0}, {0, 0, 1}, 0);
+  }
+  return b.finish();
+}
+
+TEST(CullMap, aRoofHidesUpToItsRidge) {
+  const auto hiddenBehind = [](float height) {
+    Scene s;
+    s.add(gabled(), {0, 0, 0});
+    s.add(house(height), {0, 40, 0});
+    s.finish();
+    return s.hidden(glm::dvec3(5, -20, 1.7)).size();
+  };
+  // Seen over the eaves 4.3 m up at 20 m: 14.6 m at 60 m; over the ridge 7.3 m up at 23 m: 20.7 m.
+  EXPECT_EQ(hiddenBehind(14), 1u);
+  EXPECT_EQ(hiddenBehind(18), 1u) << "the roof";
+  EXPECT_EQ(hiddenBehind(21), 0u);
+}
+
+TEST(CullMap, aGableHidesWithTheWallBelowIt) {
+  // Over the wall one sees what is higher than 16.5 m, over the gable 26 m.
+  for (const auto& [height, hidden] : {std::pair{15.0f, 1u}, {22.0f, 1u}, {28.0f, 0u}}) {
+    Scene s;
+    s.add(gabled(), {0, 0, 0});
+    s.add(test::boxBuilding({1, 1, height}), {-40, 2.5, 0});
+    s.finish();
+    EXPECT_EQ(s.hidden(glm::dvec3(30, 3, 1.7), kPi).size(), hidden) << height;
+  }
+}
+
+TEST(CullMap, whatSticksOutOfARoofDoesNotMakeAHouseHighAllOver) {
+  // A low house behind a higher one, its chimney seen above it; with a tower before the chimney nothing is seen.
+  city::BuildingBuilder b("chimney");
+  b.beginLevel(0, 3);
+  b.beginPlane(city::PlaneKind::Wall, 0, {0, -1, 0});
+  b.addQuad({0, 0, 0}, {10, 0, 0}, {10, 0, 3}, {0, 0, 3}, 0);
+  b.addOccluder({{0, 0}, {10, 0}, 0, 3});
+  b.beginPlane(city::PlaneKind::Roof, 0, {0, 0, 1});
+  b.addQuad({0, 0, 3}, {10, 0, 3}, {10, 6, 3}, {0, 6, 3}, 0);
+  b.beginPlane(city::PlaneKind::Other, 0, {0, -1, 0}, false);
+  b.addQuad({9, 5, 3}, {9.5f, 5, 3}, {9.5f, 5, 16}, {9, 5, 16}, 0);
+  const city::BuildingGeometry low = b.finish();
+  for (const bool tower : {false, true}) {
+    Scene s;
+    s.add(house(8), {0, 0, 0});
+    if (tower) s.add(test::boxBuilding({3, 6, 30}), {6, 0, 0});
+    const uint32_t behind = s.add(low, {0, 10, 0});
+    s.finish();
+    const Seeds hidden = s.hidden(glm::dvec3(5, -20, 1.7));
+    EXPECT_EQ(std::count(hidden.begin(), hidden.end(), behind), tower ? 1 : 0);
+  }
+}
+
+TEST(CullMap, aTownWallHides) {
+  Scene s;
+  city::MeshGeometry wall{"wall", {}, {}};
+  const glm::vec3 corners[] = {{-20, 0, -1}, {20, 0, -1}, {20, 0, 7}, {-20, 0, 6}};
+  for (const glm::vec3 p : corners) wall.mesh.vertices.push_back({p}), wall.bounds.extend(p);
+  wall.mesh.indices = {0, 1, 2, 0, 2, 3};
+  s.city.meshes.push_back(wall);
+  s.city.monuments.emplace_back().position = {5, 0, 0};
+  const uint32_t behind = s.add(house(5, -1), {0, 20, 0});
+  s.finish();
+  EXPECT_EQ(s.hidden(kEye), Seeds{behind});
+  EXPECT_EQ(s.hidden({5, 60, 1.7}), Seeds{}) << "its back is not drawn";
+}
+
 TEST(CullMap, aSlitSeenStraightThroughStaysOpen) {
   uint32_t behind = 0;
   const Scene apart = terrace(0.02, behind);
