@@ -14,6 +14,13 @@ for scene in "${scenes[@]}"; do
   echo "Culling over 1 000 random views of $scene"
   "$vicus" check "$scene" --views 1000 --size 320x180
 done
+streets=(norvic norvic:8000)
+[ -d "$data" ] && streets+=("$data/perigueux/bdnb_perigeux8.shp" "$data/denhaag/DenHaag_01.city.json"
+  "$data/lyon/buildings_lyon1.geojson")
+for scene in "${streets[@]}"; do
+  echo "What the cull map hides in 2 000 street views of $scene"
+  "$vicus" check "$scene" --street --views 2000 --size 640x360 --pictures 20
+done
 echo "ROAM: 10 000 random jumps, published counts and journeys on large fields, long journeys over real terrain"
 "$1/tests/test_terrain" --gtest_also_run_disabled_tests --gtest_filter='DISABLED_*InFull.*' --gtest_brief=1
 "$1/tests/test_app" --gtest_also_run_disabled_tests --gtest_filter='DISABLED_RoamBoundInFull.*' --gtest_brief=1
