@@ -2,8 +2,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 namespace vicus::app {
@@ -180,21 +178,6 @@ std::string knobsText(const city::Knobs& knobs) {
     out += row("", "", "", "too large: " + std::string(k.tooLarge));
   }
   return out;
-}
-
-std::string writeText(const std::string& file, const std::string& text) {
-  const std::filesystem::path path(file);
-  std::filesystem::path beside = path;
-  beside += ".part";
-  std::error_code failed;
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), failed);
-  if (failed) return file + ": the folder cannot be made: " + failed.message();
-  std::ofstream out(beside, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) return file + ": cannot be written";
-  std::filesystem::rename(beside, path, failed);
-  return failed ? file + ": cannot be written: " + failed.message() : std::string();
 }
 
 }  // namespace vicus::app

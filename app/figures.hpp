@@ -1,4 +1,4 @@
-/// Figures as JSON, in the shapes that docs/command-line.md promises.
+/// Figures as JSON, in the shapes that docs/command-line.md gives.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -29,8 +29,5 @@ std::string infoText(const OpenScene& scene, std::span<const plan::FeatureReport
 
 std::string knobsJson(const city::Knobs& knobs);
 std::string knobsText(const city::Knobs& knobs);
-
-/// Writes a text beside its place and renames it; an empty text or what went wrong. Missing folders are made.
-std::string writeText(const std::string& file, const std::string& text);
 
 }  // namespace vicus::app

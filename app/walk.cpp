@@ -15,6 +15,7 @@
 #include "viewer/path_file.hpp"
 #include "viewer/pictures.hpp"
 #include "viewer/tours.hpp"
+#include "viewer/whole_file.hpp"
 #include "viewer/window.hpp"
 
 namespace vicus::app {
@@ -295,13 +296,13 @@ int walk(const WalkOptions& options, const Surroundings& surroundings) {
     console.say(std::to_string(written) + (written == 1 ? " picture in " : " pictures in ") +
                 std::filesystem::absolute(pictures.folder).lexically_normal().string());
   if (!options.trace.empty()) {
-    const std::string problem = writeText(options.trace, report::chromeTrace(report::tracedFrames(records)));
+    const std::string problem = viewer::writeWhole(options.trace, report::chromeTrace(report::tracedFrames(records)));
     if (!problem.empty()) console.error(problem), code = kCouldNot;
   }
   if (!options.json.empty()) {
     const std::vector<plan::FeatureReport> features = featuresOf(planner, scene->knobs);
     const std::string problem =
-        writeText(options.json, walkJson({*scene, features, records, rendererName, size, firstFrame, graph.gpuBytes(),
+        viewer::writeWhole(options.json, walkJson({*scene, features, records, rendererName, size, firstFrame, graph.gpuBytes(),
                                           viewer::peakResidentBytes()}));
     if (!problem.empty()) console.error(problem), code = kCouldNot;
   }

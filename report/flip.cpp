@@ -260,14 +260,15 @@ FlipResult flip(const FlipAppearance& reference, const FlipAppearance& test) {
   const size_t pixels = reference.lightness.size();
   if (pixels == 0 || test.width != reference.width || test.height != reference.height ||
       test.pixelsPerDegree != reference.pixelsPerDegree) {
-    result.mean = result.max = std::numeric_limits<double>::quiet_NaN();
+    result.mean = result.exactMean = result.max = std::numeric_limits<double>::quiet_NaN();
     return result;
   }
   result.map = {reference.width, reference.height, std::vector<float>(pixels)};
   const float largest = largestColourError();
   const float knee = kKneeOfRange * largest;
 
-  double sum = 0;
+  float sum = 0;
+  double exactSum = 0;
   for (size_t i = 0; i < pixels; ++i) {
     // How different the colours look, most of the range given to small differences.
     const float distance = std::pow(hyab({reference.lightness[i], reference.redGreen[i], reference.blueYellow[i]},
@@ -281,10 +282,12 @@ FlipResult flip(const FlipAppearance& reference, const FlipAppearance& test) {
     const float featureError = std::pow(feature * std::numbers::sqrt2_v<float> / 2, kFeatureExponent);
     const float error = std::clamp(std::pow(colour, 1 - featureError), 0.0F, 1.0F);
     result.map.values[i] = error;
-    sum += static_cast<double>(error);
+    sum += error;
+    exactSum += static_cast<double>(error);
     result.max = std::max(result.max, static_cast<double>(error));
   }
-  result.mean = sum / static_cast<double>(pixels);
+  result.mean = static_cast<double>(sum / static_cast<float>(pixels));
+  result.exactMean = exactSum / static_cast<double>(pixels);
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include "report/page_style.hpp"
 #include "report/picture_bytes.hpp"
 #include "report/plot.hpp"
+#include "viewer/pictures.hpp"
 
 namespace vicus::report {
 namespace {
@@ -232,8 +233,9 @@ std::string curves(const ReportData& report) {
 // ---- pictures ------------------------------------------------------------------------------------------------------
 
 std::string image(const viewer::Picture& picture, const std::string& alternative) {
+  std::string error;  // a picture that cannot be shown leaves its words
   return fmt::format("<img loading=\"lazy\" width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\">",
-                     picture.width, picture.height, escaped(alternative), base64(pngBytes(picture)));
+                     picture.width, picture.height, escaped(alternative), base64(viewer::pngBytes(picture, error)));
 }
 
 std::string errorRamp() {

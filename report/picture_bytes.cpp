@@ -1,28 +1,11 @@
 #include "report/picture_bytes.hpp"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <string_view>
 
 namespace vicus::report {
-
-std::vector<uint8_t> pngBytes(const viewer::Picture& picture) {
-  std::vector<uint8_t> bytes;
-  if (picture.rgb.empty()) return bytes;
-  const auto output = OIIO::ImageOutput::create("picture.png");
-  if (!output) return bytes;
-  OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::UINT8);
-  spec.attribute("oiio:ColorSpace", "sRGB");
-  std::vector<unsigned char> buffer;
-  OIIO::Filesystem::IOVecOutput proxy(buffer);
-  if (!output->set_ioproxy(&proxy) || !output->open("picture.png", spec)) return bytes;
-  if (!output->write_image(OIIO::TypeDesc::UINT8, picture.rgb.data()) || !output->close()) return bytes;
-  return buffer;
-}
 
 viewer::Picture reduced(const viewer::Picture& picture, int width) {
   if (picture.width <= width || width < 1) return picture;

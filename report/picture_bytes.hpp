@@ -9,9 +9,6 @@
 
 namespace vicus::report {
 
-/// The picture as the bytes of a PNG file; empty where there are no pixels.
-std::vector<uint8_t> pngBytes(const viewer::Picture& picture);
-
 /// The picture reduced to at most `width` pixels across by averaging in linear light; never enlarged.
 viewer::Picture reduced(const viewer::Picture& picture, int width);
 

@@ -21,6 +21,7 @@
 #include "viewer/frame_loop.hpp"
 #include "viewer/item_buffers.hpp"
 #include "viewer/tours.hpp"
+#include "viewer/whole_file.hpp"
 
 namespace vicus::report {
 namespace {
@@ -333,7 +334,8 @@ void measurePopping(Session& s, std::vector<Run>& runs, const city::Tour& tour, 
       const FlipAppearance reference = flipAppearance(referenceOf(s, view), s.options.flipPixelsPerDegree);
       for (size_t i = 0; i < chosen.size(); ++i) {
         const Picture picture = pictureOf(s, *chosen[i], view, states[i], k == 0 ? 0 : kStep);
-        chosen[i]->approach.push_back(flip(reference, flipAppearance(picture, s.options.flipPixelsPerDegree)).mean);
+        chosen[i]->approach.push_back(
+            flip(reference, flipAppearance(picture, s.options.flipPixelsPerDegree)).exactMean);
       }
     });
     if (k == 0) frames = affordable(s, "frames of the slow approach on " + tour.name, frames, 3, share, each);
@@ -584,7 +586,7 @@ std::string writeReport(const std::filesystem::path& folder, const ReportData& r
   for (const auto& [name, text] :
        {std::pair{"report.json", reportJson(report)}, std::pair{"report.csv", reportCsv(report)},
         std::pair{"report.html", reportPage(report)}})
-    if (std::string problem = writeText(folder / name, text); !problem.empty()) return problem;
+    if (std::string problem = viewer::writeWhole(folder / name, text); !problem.empty()) return problem;
   return {};
 }
 

@@ -8,37 +8,24 @@
 #include <vector>
 
 #include "city/random.hpp"
+#include "viewer/measure.hpp"
 
 namespace vicus::report {
 namespace {
 
-/// Orders `values` as far as needed.
-double percentileInPlace(std::vector<double>& values, double fraction) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const double at = std::clamp(fraction, 0.0, 1.0) * static_cast<double>(values.size() - 1);
-  const auto low = static_cast<size_t>(at);
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(low);
-  std::nth_element(values.begin(), place, values.end());
-  const double t = at - static_cast<double>(low);
-  if (t == 0) return *place;
-  return *place + t * (*std::min_element(place + 1, values.end()) - *place);
-}
+using viewer::percentile;
 
 /// Interval from figures of many resamples.
 Estimate interval(double value, std::vector<double> figures, double confidence) {
   const double tail = (1 - confidence) / 2;
-  return {value, percentileInPlace(figures, tail), percentileInPlace(figures, 1 - tail)};
+  return {value, percentile(figures, tail), percentile(figures, 1 - tail)};
 }
 
 }  // namespace
 
-double percentile(std::span<const double> samples, double fraction) {
-  std::vector<double> values(samples.begin(), samples.end());
-  return percentileInPlace(values, fraction);
-}
-
 double median(std::span<const double> samples) {
-  return percentile(samples, 0.5);
+  std::vector<double> values(samples.begin(), samples.end());
+  return percentile(values, 0.5);
 }
 
 double mean(std::span<const double> samples) {
@@ -54,7 +41,7 @@ Estimate medianWithInterval(std::span<const double> samples, const BootstrapOpti
   std::vector<double> figures, drawn(count);
   for (int i = 0; i < options.resamples; ++i) {
     for (double& d : drawn) d = samples[random.below(count)];
-    figures.push_back(percentileInPlace(drawn, 0.5));
+    figures.push_back(percentile(drawn, 0.5));
   }
   return interval(median(samples), std::move(figures), options.confidence);
 }
@@ -72,7 +59,7 @@ Estimate ratioOfMedians(std::span<const double> numerator, std::span<const doubl
       drawnTop[k] = top[pair];
       drawnBottom[k] = bottom[pair];
     }
-    figures.push_back(percentileInPlace(drawnTop, 0.5) / percentileInPlace(drawnBottom, 0.5));
+    figures.push_back(percentile(drawnTop, 0.5) / percentile(drawnBottom, 0.5));
   }
   return interval(median(top) / median(bottom), std::move(figures), options.confidence);
 }

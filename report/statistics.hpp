@@ -6,9 +6,7 @@
 
 namespace vicus::report {
 
-/// The value below which `fraction` (0 … 1) of the samples lie, interpolated between neighbours in order; order of
-/// input does not matter. No samples give NaN.
-double percentile(std::span<const double> samples, double fraction);
+/// Of samples in any order. No samples give NaN.
 double median(std::span<const double> samples);
 double mean(std::span<const double> samples);
 

@@ -1,9 +1,7 @@
 #include "report/write_json.hpp"
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <system_error>
 #include <type_traits>
 
 namespace vicus::report {
@@ -200,26 +198,6 @@ std::optional<ReportData> parseReport(const std::string& text, std::string& erro
     error = problem.what();
     return std::nullopt;
   }
-}
-
-std::string writeText(const std::filesystem::path& path, const std::string& text) {
-  std::error_code failed;
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), failed);
-  if (failed) return path.string() + ": the folder cannot be made: " + failed.message();
-  std::filesystem::path beside = path;
-  beside += ".part";
-  {
-    std::ofstream out(beside, std::ios::binary);
-    out << text;
-    out.close();
-    if (!out) {
-      std::filesystem::remove(beside, failed);
-      return path.string() + ": cannot be written";
-    }
-  }
-  std::filesystem::rename(beside, path, failed);
-  if (failed) return path.string() + ": cannot be written: " + failed.message();
-  return {};
 }
 
 }  // namespace vicus::report

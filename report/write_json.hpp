@@ -1,7 +1,6 @@
 /// report.json: the report for programs.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -16,9 +15,5 @@ std::string reportJson(const ReportData& report);
 /// The inverse of `reportJson`: unknown keys are passed over, missing ones keep their defaults. Nothing, with the
 /// reason in `error`, where the text is not such a report.
 std::optional<ReportData> parseReport(const std::string& text, std::string& error);
-
-/// Writes a text file whole or not at all: beside `path` first, then renamed. Returns an empty text, or what went
-/// wrong.
-std::string writeText(const std::filesystem::path& path, const std::string& text);
 
 }  // namespace vicus::report

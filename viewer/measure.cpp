@@ -8,25 +8,31 @@
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
+#include <iterator>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <vector>
 
 namespace vicus::viewer {
 
+double percentile(std::span<double> values, double fraction) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const double rank = std::clamp(fraction, 0.0, 1.0) * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<size_t>(rank);
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(below);
+  std::nth_element(values.begin(), place, values.end());
+  const double part = rank - static_cast<double>(below);
+  if (part == 0) return *place;
+  return *place + part * (*std::min_element(place + 1, values.end()) - *place);
+}
+
 Percentiles percentiles(std::span<const double> values) {
-  std::vector<double> sorted;
-  sorted.reserve(values.size());
-  std::copy_if(values.begin(), values.end(), std::back_inserter(sorted), [](double v) { return std::isfinite(v); });
-  if (sorted.empty()) return {};
-  std::sort(sorted.begin(), sorted.end());
-  const auto at = [&](double p) {
-    const double rank = p * static_cast<double>(sorted.size() - 1);
-    const auto below = static_cast<size_t>(rank);
-    const size_t above = std::min(below + 1, sorted.size() - 1);
-    return sorted[below] + (rank - static_cast<double>(below)) * (sorted[above] - sorted[below]);
-  };
-  return {at(0.5), at(0.95), at(0.99), sorted.back()};
+  std::vector<double> finite;
+  finite.reserve(values.size());
+  std::copy_if(values.begin(), values.end(), std::back_inserter(finite), [](double v) { return std::isfinite(v); });
+  if (finite.empty()) return {};
+  return {percentile(finite, 0.5), percentile(finite, 0.95), percentile(finite, 0.99), percentile(finite, 1)};
 }
 
 MeanMax meanMax(std::span<const double> values) {

@@ -6,13 +6,16 @@
 
 namespace vicus::viewer {
 
+/// The value below which `fraction` (0 … 1) of the values lie, by linear interpolation between the closest ranks (the
+/// value at rank fraction · (n − 1)). Orders `values` as far as needed. No values give NaN.
+double percentile(std::span<double> values, double fraction);
+
 /// Milliseconds, or whatever the values were. All 0 where there were none.
 struct Percentiles {
   double median = 0, p95 = 0, p99 = 0, max = 0;
 };
 
-/// Percentiles by linear interpolation between the closest ranks (the value at rank p · (n − 1)), so that one value
-/// gives itself four times. Values that are not finite are left out.
+/// One value gives itself four times. Values that are not finite are left out.
 Percentiles percentiles(std::span<const double> values);
 
 /// Mean and largest of counts; 0 where there are none.

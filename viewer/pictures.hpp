@@ -5,13 +5,17 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "viewer/renderer.hpp"
 
 namespace vicus::viewer {
 
-/// Writes an 8-bit sRGB PNG. The picture is written beside `path` and renamed when it is whole, so that nobody ever
-/// reads half of one; folders that are missing are made. Returns an empty text, or what went wrong.
+/// The picture as the bytes of an 8-bit sRGB PNG file; empty, with the reason in `error`, where that cannot be: no
+/// pixels, or not as many bytes as pixels need.
+std::vector<uint8_t> pngBytes(const Picture& picture, std::string& error);
+
+/// Writes an 8-bit sRGB PNG, whole or not at all (whole_file.hpp). Returns an empty text, or what went wrong.
 std::string writePng(const std::filesystem::path& path, const Picture& picture);
 
 /// Reads a picture of any format that OpenImageIO knows as 8-bit RGB; nothing, with the reason in `error`, where it

@@ -330,14 +330,5 @@ TEST(Console, ProgressIsOneLineAStageElsewhereAndRewrittenInATerminal) {
   EXPECT_THAT(terminal.str(), testing::EndsWith("\r\x1b[Kdone\n")) << "the line is wiped before a message";
 }
 
-TEST(WriteText, BesideThenRenamed) {
-  const auto folder = std::filesystem::temp_directory_path() / "vicus-app-write";
-  std::filesystem::remove_all(folder);
-  EXPECT_EQ(writeText((folder / "a" / "b.json").string(), "{}\n"), "");
-  EXPECT_FALSE(std::filesystem::exists(folder / "a" / "b.json.part"));
-  EXPECT_THAT(writeText((folder / "a").string(), "x"), HasSubstr("cannot be written"));
-  std::filesystem::remove_all(folder);
-}
-
 }  // namespace
 }  // namespace vicus::app

@@ -1,30 +1,9 @@
 #include "report/picture_bytes.hpp"
 
-#include <fstream>
-
 #include "pictures.hpp"
-#include "viewer/pictures.hpp"
 
 namespace vicus::report {
 namespace {
-
-TEST(PngBytes, PngRoundTrip) {
-  const auto p = testing::town(33, 17);
-  const auto path = std::filesystem::temp_directory_path() / "vicus-report-picture.png";
-  const auto bytes = pngBytes(p);
-  std::ofstream(path, std::ios::binary)
-      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  std::string error;
-  const auto again = viewer::readPicture(path, error);
-  std::filesystem::remove(path);
-  ASSERT_TRUE(again) << error;
-  EXPECT_EQ(again->width, 33);
-  EXPECT_EQ(again->rgb, p.rgb);
-}
-
-TEST(PngBytes, NoPixelsGiveNoBytes) {
-  EXPECT_TRUE(pngBytes({}).empty());
-}
 
 TEST(Reduced, AveragesInLinearLight) {
   const auto checks = testing::picture(8, 8, [](int x, int y) -> testing::Pixel {

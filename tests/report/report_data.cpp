@@ -2,8 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -67,19 +65,6 @@ TEST(ReportJson, OtherTextIsAnError) {
   EXPECT_FALSE(parseReport("[1]", error));
   EXPECT_FALSE(parseReport(R"({"runs": "none"})", error));
   EXPECT_TRUE(parseReport("{}", error));
-}
-
-TEST(WriteText, ReplacesWholeFilesAndSaysWhatIsWrong) {
-  const auto folder = std::filesystem::temp_directory_path() / "vicus-report-text";
-  std::filesystem::remove_all(folder);
-  EXPECT_EQ(writeText(folder / "deep" / "a.txt", "one"), "");
-  EXPECT_EQ(writeText(folder / "deep" / "a.txt", "two"), "");
-  std::string text;
-  std::getline(std::ifstream(folder / "deep" / "a.txt"), text);
-  EXPECT_EQ(text, "two");
-  EXPECT_FALSE(std::filesystem::exists(folder / "deep" / "a.txt.part"));
-  EXPECT_THAT(writeText(folder / "deep" / "a.txt" / "b.txt", "x"), HasSubstr("b.txt"));
-  std::filesystem::remove_all(folder);
 }
 
 TEST(ReportCsv, EveryLineHasTheSameFields) {

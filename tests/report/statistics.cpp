@@ -12,13 +12,8 @@ namespace {
 
 using Samples = std::vector<double>;
 
-TEST(Percentile, ByHand) {
-  const Samples samples{4, 1, 3, 2};
-  EXPECT_EQ(median(samples), 2.5);
-  EXPECT_EQ(percentile(samples, 0), 1);
-  EXPECT_EQ(percentile(samples, 1), 4);
-  EXPECT_NEAR(percentile(samples, 0.95), 3.85, 1e-12);
-  EXPECT_EQ(percentile(samples, 7), 4);
+TEST(Median, ByHand) {
+  EXPECT_EQ(median(Samples{4, 1, 3, 2}), 2.5);
   EXPECT_EQ(median(Samples{9}), 9);
   EXPECT_TRUE(std::isnan(median({})));
 }

@@ -12,6 +12,7 @@
 #include "viewer/measure.hpp"
 #include "viewer/path_file.hpp"
 #include "viewer/pictures.hpp"
+#include "viewer/whole_file.hpp"
 
 namespace vicus::viewer {
 namespace {
@@ -19,6 +20,15 @@ namespace {
 using testing::HasSubstr;
 
 // ---- Percentiles ----
+
+TEST(Percentile, ByHand) {
+  std::vector<double> samples{4, 1, 3, 2};
+  EXPECT_EQ(percentile(samples, 0), 1);
+  EXPECT_EQ(percentile(samples, 1), 4);
+  EXPECT_NEAR(percentile(samples, 0.95), 3.85, 1e-12);
+  EXPECT_EQ(percentile(samples, 7), 4);
+  EXPECT_TRUE(std::isnan(percentile({}, 0.5)));
+}
 
 TEST(Percentiles, NoneOneAndTwo) {
   EXPECT_EQ(percentiles({}).max, 0);
@@ -118,7 +128,20 @@ TEST_F(PictureFiles, APlaceThatCannotBeWrittenIsNamed) {
   EXPECT_THAT(writePng(folder_ / "file" / "a.png", noise(4, 4)), HasSubstr("the folder cannot be made"));
 }
 
+TEST_F(PictureFiles, WholeFilesReplaceWhatWasThere) {
+  ASSERT_EQ(writeWhole(folder_ / "deep" / "a.txt", "one, longer"), "");
+  ASSERT_EQ(writeWhole(folder_ / "deep" / "a.txt", "two"), "");
+  std::string text;
+  std::getline(std::ifstream(folder_ / "deep" / "a.txt"), text);
+  EXPECT_EQ(text, "two");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "deep" / "a.txt.part"));
+  EXPECT_THAT(writeWhole(folder_ / "deep" / "a.txt" / "b.txt", "x"), HasSubstr("b.txt"));
+}
+
 TEST_F(PictureFiles, PixelsMustBeThere) {
+  std::string error;
+  EXPECT_TRUE(pngBytes({}, error).empty());
+  EXPECT_THAT(error, HasSubstr("has 0 bytes"));
   EXPECT_THAT(writePng(folder_ / "a.png", {4, 4, std::vector<uint8_t>(5)}), HasSubstr("has 5 bytes"));
   EXPECT_THAT(writePng(folder_ / "a.png", {0, 0, {}}), HasSubstr("not written"));
   EXPECT_EQ(files(), 0u);
