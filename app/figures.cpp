@@ -75,6 +75,7 @@ std::string walkJson(const WalkResult& result) {
   out["features"] = json(result.features);
   const viewer::RunTimes times = viewer::timesOf(result.records);
   out["run_time_ms"]["frame"] = json(times.frame);
+  out["run_time_ms"]["gpu"] = times.gpu ? json(*times.gpu) : Json(nullptr);
   out["run_time_ms"]["stages"] = Json::object();
   for (const auto& [name, p] : times.stages) out["run_time_ms"]["stages"][name] = json(p);
   for (const auto& [name, c] : viewer::countsOf(result.records))

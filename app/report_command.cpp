@@ -32,7 +32,7 @@ int report(const ReportCommandOptions& options, const Surroundings& surroundings
   report::ReportOptions settings;
   settings.scene = scene->name;
   settings.quick = options.quick;
-  if (options.quick) settings.amounts = report::quickAmounts(scene->city);
+  if (options.quick) settings.amounts = report::quickAmounts();
   settings.stop = [&] { return interrupted() || !problem.empty(); };
   settings.progress = [&](std::string_view stage, double fraction, double secondsLeft) {
     std::string text(stage);

@@ -17,6 +17,7 @@ struct Parsed {
   std::string shift[4];  ///< of walk, info, check and report
   std::string walkSize, checkSize;
   std::vector<std::string> views, checkViews;
+  std::string seenFrom;
 };
 
 void addScene(CLI::App& command, SceneOptions& scene, std::string& shift) {
@@ -67,6 +68,10 @@ void addWalk(CLI::App& app, Parsed& p) {
   walk.add_option("--out", p.walk.out, "folder for pictures (PNG)")->type_name("DIR");
   walk.add_option("--every", p.walk.every, "write every K-th frame only")->check(CLI::PositiveNumber)->type_name("K");
   walk.add_option("--json", p.walk.json, "write the figures of the run")->type_name("FILE");
+  walk.add_flag("--overlay", p.walk.overlay, "show frame times, counts, errors and knobs over the picture (F2)");
+  walk.add_option("--seen-from", p.seenFrom,
+                  "freeze each frame's plan (F3) and show from there what it leaves out and why")
+      ->type_name("X,Y,Z,HEADING,PITCH[,FOV]");
   walk.add_option("--trace", p.walk.trace, "write the stages of every frame for chrome://tracing or Perfetto")
       ->type_name("FILE");
 }
@@ -122,6 +127,11 @@ std::string complete(Parsed& p) {
     const auto parsed = parseSize(*text);
     if (!parsed) return "--size takes WIDTHxHEIGHT, each 1 to 16384, not '" + *text + "'";
     *size = *parsed;
+  }
+  if (!p.seenFrom.empty()) {
+    std::string error;
+    p.walk.seenFrom = parseView(p.seenFrom, error);
+    if (!p.walk.seenFrom) return "--seen-from: " + error;
   }
   const std::pair<const std::vector<std::string>*, std::vector<ViewOption>*> views[] = {
       {&p.views, &p.walk.views}, {&p.checkViews, &p.check.single}};

@@ -5,12 +5,15 @@
 #include <future>
 #include <set>
 #include <thread>
+#include <utility>
 
 #include "app/commands.hpp"
 #include "app/figures.hpp"
 #include "app/interrupt.hpp"
 #include "app/open_scene.hpp"
 #include "report/stage_trace.hpp"
+#include "viewer/drawing.hpp"
+#include "viewer/live_view.hpp"
 #include "viewer/navigator.hpp"
 #include "viewer/path_file.hpp"
 #include "viewer/pictures.hpp"
@@ -159,10 +162,32 @@ class Guide {
     viewer::Input input;
     if (window_) input = window_->poll(), size_ = window_->size();
     if (input.quit || interrupted()) return std::nullopt;
+    if (live_ && lookedInto_) lookInto(input);
     return live_ ? liveView(input) : plannedView();
   }
 
+  /// F2 and F3 work on it from now on.
+  void lookInto(viewer::LiveView& live) { lookedInto_ = &live; }
+
  private:
+  /// F2 shows the overlay and gives it the mouse; F3 freezes the plan, and the visitor flies out to see it. Thawed, the
+  /// visitor is back where it was frozen.
+  void lookInto(viewer::Input& input) {
+    if (input.toggleOverlay) lookedInto_->showOverlay(!lookedInto_->overlayShown());
+    if (input.toggleFreeze) {
+      lookedInto_->freeze(!lookedInto_->frozen());
+      if (lookedInto_->frozen())
+        frozenAt_ = std::exchange(navigator_, {pose_, {}, true}), frozenFree_ = std::exchange(free_, true);
+      else
+        navigator_ = frozenAt_, free_ = frozenFree_;
+    }
+    // The panel has the mouse, and the head turns only while the right button is held.
+    const bool panel = lookedInto_->overlayShown();
+    window_->freeMouse(panel && !input.rightButton);
+    lookedInto_->point({panel && !input.rightButton ? input.pointer : glm::dvec2(-1), input.leftButton, input.wheel});
+    if (panel && !input.rightButton) input.mouse = glm::dvec2(0);
+  }
+
   std::optional<viewer::NextView> plannedView() {
     if (frame_ == planned_.size()) return std::nullopt;
     const PlannedView& planned = planned_[frame_++];
@@ -186,6 +211,7 @@ class Guide {
   }
 
   viewer::NextView nextView(const city::ViewPose& pose, double fov, double time, double dt, bool warmUp) {
+    pose_ = pose;
     view_ = city::makeView(pose, fov, size_, view_);
     view_.time = time;
     return {view_, dt, warmUp};
@@ -202,9 +228,13 @@ class Guide {
   std::vector<PlannedView> planned_;
   size_t frame_ = 0;
   viewer::Navigator navigator_;
+  viewer::LiveView* lookedInto_ = nullptr;
+  viewer::Navigator frozenAt_;  ///< where the visitor was when the plan was frozen
+  bool frozenFree_ = false;     ///< whether the visitor walked freely then
   Clock::time_point begin_ = Clock::now();
-  double time_ = 0;  ///< of the frame before, seconds since begin_
-  double due_ = 0;   ///< moment of the next frame, seconds since begin_
+  double time_ = 0;      ///< of the frame before, seconds since begin_
+  double due_ = 0;       ///< moment of the next frame, seconds since begin_
+  city::ViewPose pose_;  ///< of the last view
   city::ViewState view_;
 };
 
@@ -244,15 +274,17 @@ int walk(const WalkOptions& options, const Surroundings& surroundings) {
 
   // The scene graph and the renderer; the city's buffers reach the card with the first frame.
   screen.context->makeCurrent();
-  const plan::Planner planner(scene->city, scene->knobs);
-  scenegraph::Scene graph(
+  viewer::Drawing drawing{scene->city, *screen.context, scene->knobs, {}, {}, {}};
+  drawing.planner = std::make_unique<plan::Planner>(scene->city, scene->knobs);
+  drawing.scene = std::make_unique<scenegraph::Scene>(
       scene->city, scene->knobs, diagnostics,
       [&](std::string_view stage, double fraction) { console.progress(stage, fraction); }, std::move(groundDetail));
   const std::optional<city::Tour> tour = choosing.get();
   if (!tour) return code;
   console.progressDone();
   console.report(diagnostics);
-  viewer::Renderer renderer(*screen.context, graph, static_cast<int>(scene->knobs["viewer.multisamples"]));
+  drawing.renderer = std::make_unique<viewer::Renderer>(*screen.context, *drawing.scene,
+                                                        static_cast<int>(scene->knobs["viewer.multisamples"]));
   const std::string rendererName = screen.context->rendererName();
 
   // The walk.
@@ -276,20 +308,34 @@ int walk(const WalkOptions& options, const Surroundings& surroundings) {
   };
   if (screen.window) hooks.windowSize = [&] { return screen.window->size(); };
   hooks.keepRecords = !guide.free() || !options.json.empty() || !options.trace.empty();
+  hooks.expectedFrames = guide.countedFrames();
   hooks.drawn = [&](size_t frame, const viewer::FrameRecord&) {
     if (guide.countedFrames() > 0)
       console.progress("drawing", static_cast<double>(frame + 1) / static_cast<double>(guide.countedFrames()));
     if (!pictures.has(frame)) return;
-    pictureProblem = viewer::writePng(pictures.file(frame), renderer.readPicture());
+    pictureProblem = viewer::writePng(pictures.file(frame), drawing.renderer->readPicture());
     if (pictureProblem.empty()) ++written;
   };
-  const std::vector<viewer::FrameRecord> records =
-      viewer::runFrames({scene->city, planner, graph, renderer, *screen.context}, hooks);
+  // Looking into it: in a window with F2 and F3, offscreen where it is asked for.
+  viewer::Stage stage = drawing.stage();
+  std::optional<viewer::LiveView> live;
+  if (screen.window || options.overlay || options.seenFrom) {
+    live.emplace(drawing, stage, scene->name, featuresOf);
+    live->showOverlay(options.overlay);
+    if (options.seenFrom)
+      live->showFrom(city::makeView({options.seenFrom->eye, options.seenFrom->heading, options.seenFrom->pitch, 0},
+                                    options.seenFrom->fov.value_or(glm::radians(scene->knobs["viewer.fov"])),
+                                    options.size));
+    live->install(hooks);
+    guide.lookInto(*live);
+  }
+  const std::vector<viewer::FrameRecord> records = viewer::runFrames(stage, hooks);
   console.progressDone();
 
   // What came of it.
   finishCache(*scene, console);
-  for (const std::string& problem : renderer.problems()) console.error(problem), code = kCouldNot;
+  if (live && !live->problem().empty()) console.error(live->problem()), code = kCouldNot;
+  for (const std::string& problem : drawing.renderer->problems()) console.error(problem), code = kCouldNot;
   if (!pictureProblem.empty()) console.error(pictureProblem), code = kCouldNot;
   tellTimes(records, rendererName, console);
   if (written > 0)
@@ -300,10 +346,11 @@ int walk(const WalkOptions& options, const Surroundings& surroundings) {
     if (!problem.empty()) console.error(problem), code = kCouldNot;
   }
   if (!options.json.empty()) {
-    const std::vector<plan::FeatureReport> features = featuresOf(planner, scene->knobs);
-    const std::string problem =
-        viewer::writeWhole(options.json, walkJson({*scene, features, records, rendererName, size, firstFrame, graph.gpuBytes(),
-                                          viewer::peakResidentBytes()}));
+    const std::vector<plan::FeatureReport> features = featuresOf(*drawing.planner, drawing.knobs);
+    const uint64_t gpuBytes = drawing.scene->gpuBytes() + drawing.renderer->gpuBytes();
+    const std::string problem = viewer::writeWhole(
+        options.json,
+        walkJson({*scene, features, records, rendererName, size, firstFrame, gpuBytes, viewer::peakResidentBytes()}));
     if (!problem.empty()) console.error(problem), code = kCouldNot;
   }
   return code;

@@ -27,19 +27,21 @@ city::Knobs with(city::Knobs knobs, const std::vector<Technique>& techniques, co
 std::vector<Configuration> configurations(const city::Knobs& knobs, std::span<const Technique> techniques) {
   const std::vector<Technique> all = switched(knobs, techniques);
   const auto none = [](const Technique&) { return false; };
-  const auto every = [](const Technique&) { return true; };
+  const auto usual = [&](const Technique& t) { return knobs.on(t.switchKnob); };
   std::vector<Configuration> out;
   out.push_back({"all_off", with(knobs, all, none)});
   for (const Technique& t : all)
     out.push_back(
         {"only_" + std::string(t.name), with(knobs, all, [&](const Technique& u) { return u.name == t.name; })});
-  out.push_back({"all_on", with(knobs, all, every)});
+  out.push_back({"all_on", with(knobs, all, usual)});
   for (const Technique& t : all)
-    out.push_back(
-        {"all_on_less_" + std::string(t.name), with(knobs, all, [&](const Technique& u) { return u.name != t.name; })});
-  out.push_back({"visibility", with(knobs, all, [](const Technique& u) { return u.visibility; })});
+    if (usual(t))
+      out.push_back({"all_on_less_" + std::string(t.name),
+                     with(knobs, all, [&](const Technique& u) { return usual(u) && u.name != t.name; })});
+  out.push_back({"visibility", with(knobs, all, [&](const Technique& u) { return usual(u) && u.visibility; })});
   // The limit keeps what makes drawing cheap and no picture worse, and leaves the choosing to the item buffer.
-  Configuration limit{"limit", with(knobs, all, [](const Technique& u) { return !u.geometricErrorPixels; }), true};
+  Configuration limit{"limit",
+                      with(knobs, all, [&](const Technique& u) { return usual(u) && !u.geometricErrorPixels; }), true};
   out.push_back(std::move(limit));
   return out;
 }
@@ -60,7 +62,8 @@ std::vector<SweepPoint> sweepOf(const Technique& technique, const city::Knobs& k
 
   const std::vector<Technique> all = switched(knobs, techniques);
   for (const double value : values) {
-    city::Knobs turned = with(knobs, all, [](const Technique&) { return true; });
+    city::Knobs turned =
+        with(knobs, all, [&](const Technique& u) { return knobs.on(u.switchKnob) || u.name == technique.name; });
     if (!turned.set(technique.sweptKnob, value).empty()) continue;  // out of the knob's range
     out.push_back({value, value == usual, {std::string(technique.sweptKnob), std::move(turned)}});
   }

@@ -70,7 +70,7 @@ svg.plot { display: block; width: 100%; height: auto; font-family: var(--figures
 .legend { font: 13px/1.7 var(--figures); color: var(--soft); margin: 6px 0 4px; max-width: none; }
 .legend span { margin-right: 18px; white-space: nowrap; }
 .legend i { display: inline-block; width: 11px; height: 11px; margin-right: 6px; border-radius: 2px; }
-.columns { display: grid; grid-template-columns: repeat(auto-fit, minmax(460px, 1fr)); gap: 22px; }
+.columns { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(460px, 100%), 1fr)); gap: 22px; }
 .triple { display: grid; grid-template-columns: repeat(3, 1fr); gap: 8px; }
 .triple img { width: 100%; display: block; image-rendering: auto; }
 .triple span { font: 12px var(--figures); color: var(--soft); }
@@ -83,7 +83,8 @@ dt { font: 600 13.5px/1.75 var(--figures); }
 dd { margin: 0; max-width: 80ch; }
 #tip { position: fixed; pointer-events: none; background: var(--ink); color: #fff; font: 12.5px/1.45 var(--figures);
   padding: 6px 10px; border-radius: 3px; white-space: pre-line; max-width: 340px; display: none; z-index: 9; }
-@media (max-width: 760px) { body { padding: 24px 14px; } h1 { font-size: 32px; } .columns { grid-template-columns: 1fr; } }
+@media (max-width: 760px) { body { padding: 24px 14px; } h1 { font-size: 32px; } dl { grid-template-columns: 1fr; }
+  dd { margin-bottom: 10px; } .triple { grid-template-columns: 1fr; max-width: 480px; } }
 @media print { body { max-width: none; padding: 0; } .wide { overflow: visible; } details > * { display: block; }
   figure, tr { break-inside: avoid; } }
 )css";

@@ -53,11 +53,12 @@ struct RunFigures {
   int frames = 0;    ///< timed
   Named<double> knobs;
   Named<FeatureFigures> features;
-  viewer::Percentiles frame;          ///< milliseconds
-  Estimate frameMedian;               ///< milliseconds
-  Named<viewer::Percentiles> stages;  ///< milliseconds, in the order run
-  Named<double> leastStages;          ///< milliseconds, the quickest frame's: noise only adds to it
-  Named<viewer::MeanMax> counts;      ///< tiles, …, triangles, draw_calls, texture_binds, …
+  viewer::Percentiles frame;               ///< milliseconds
+  std::optional<viewer::Percentiles> gpu;  ///< milliseconds; nothing where the driver tells none
+  Estimate frameMedian;                    ///< milliseconds
+  Named<viewer::Percentiles> stages;       ///< milliseconds, in the order run
+  Named<double> leastStages;               ///< milliseconds, the quickest frame's: noise only adds to it
+  Named<viewer::MeanMax> counts;           ///< tiles, …, triangles, draw_calls, texture_binds, …
   MemoryFigures memory;
   ErrorFigures error;
 };

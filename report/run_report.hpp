@@ -20,26 +20,31 @@ namespace vicus::report {
 
 /// How much is measured. More of anything: surer figures, and more time.
 struct Amounts {
-  glm::ivec2 size{1280, 720};       ///< of the timed frames and the pictures
-  int warmUpFrames = 10;            ///< for each run
-  int timedFrames = 120;            ///< for each run of a tour
-  int pictureViews = 12;            ///< for each tour: pictures compared with the reference
-  glm::ivec2 itemSize{3840, 2160};  ///< of the item buffers that tell what is visible
-  int itemViews = 12;               ///< for each tour
-  int approachFrames = 24;          ///< of the slow approach that shows popping
-  bool poppingOfAll = true;         ///< of every run; else of all_off and all_on only
-  size_t curvePoints = 9;           ///< for each knob
-  int curveFrames = 40;             ///< timed frames for each point
-  int curveViews = 6;               ///< pictures for each point
-  bool shortTours = false;          ///< tours after the first: all_off, all_on and limit only
+  glm::ivec2 size{1280, 720};            ///< of the timed frames and the pictures
+  int warmUpFrames = 10;                 ///< for each run
+  int timedFrames = 120;                 ///< for each run of a tour
+  int pictureViews = 12;                 ///< for each tour: pictures compared with the reference
+  glm::ivec2 timedItemSize{2560, 1440};  ///< of the item buffers that every timed frame is checked against
+  glm::ivec2 itemSize{3840, 2160};       ///< of those that tell what is visible
+  int itemViews = 12;                    ///< for each tour; 0: the timed frames' own tell what is visible
+  int approachFrames = 24;               ///< of the slow approach that shows popping
+  bool poppingOfAll = true;              ///< of every run; else of all_off and all_on only
+  size_t curvePoints = 9;                ///< for each knob
+  int curveFrames = 40;                  ///< timed frames for each point
+  int curveViews = 6;                    ///< pictures for each point
+  int leftOutFrames = 20;                ///< for each part that the scene lacks, with it and without
+  bool shortTours = false;               ///< tours after the first: all_off, all_on and limit only, and no popping
   std::vector<std::string> tours{"street", "flyover", "turn", "teleport"};
   std::vector<std::string> only;  ///< names of the configurations; empty: all
-  double seconds = 0;  ///< frames and views are cut, to a third or quarter at most, to end within these; 0: no hurry
+  /// Frames and views are cut, to a third or a quarter at most, to end within these; 0: no hurry. Scenes whose frames
+  /// take longer get more: as many seconds as `secondsForRound` frames of all configurations of the first tour take, up
+  /// to `mostSeconds`.
+  double seconds = 0, mostSeconds = 0, secondsForRound = 0;
   bool stability = true;
 };
 
 /// What `--quick` measures: under a minute for a town, under three for a city.
-Amounts quickAmounts(const city::City& city);
+Amounts quickAmounts();
 
 /// Ways for tests to spoil what the program does, to see that the report finds it. Each is called with the
 /// configuration's name and may be empty.

@@ -3,17 +3,21 @@
 #include <iterator>
 
 #include "assets/import/import_stability.hpp"
+#include "culling/cull_map_stability.hpp"
 #include "culling/stability.hpp"
+#include "terrain/stability.hpp"
 
 namespace vicus::report {
 
-std::vector<city::StabilityRow> allStability(bool /*quick*/) {
+std::vector<city::StabilityRow> allStability() {
   std::vector<city::StabilityRow> rows;
   const auto add = [&](std::vector<city::StabilityRow> more) {
     rows.insert(rows.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
   };
   add(assets::importStability());
   add(culling::frustumStability());
+  add(culling::cullMapStability());
+  add(terrain::roamStability());
   return rows;
 }
 

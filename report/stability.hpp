@@ -7,7 +7,7 @@
 
 namespace vicus::report {
 
-/// The rows of all parts. `quick` leaves out cases that take longer than a second or two. Deterministic.
-std::vector<city::StabilityRow> allStability(bool quick);
+/// The rows of all parts. Deterministic; takes a few seconds.
+std::vector<city::StabilityRow> allStability();
 
 }  // namespace vicus::report

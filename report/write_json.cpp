@@ -26,7 +26,10 @@ class Writer {
 
   static Json write(const std::string& v) { return v; }
   static Json write(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
-  static Json write(const std::optional<double>& v) { return v ? write(*v) : Json(nullptr); }
+  template <typename T>
+  static Json write(const std::optional<T>& v) {
+    return v ? write(*v) : Json(nullptr);
+  }
   template <typename T>
   requires std::is_integral_v<T>
   static Json write(T v) { return v; }
@@ -70,8 +73,10 @@ class Reader {
 
   static void read(const Json& j, std::string& v) { v = j.get<std::string>(); }
   static void read(const Json& j, double& v) { v = j.is_null() ? NAN : j.get<double>(); }
-  static void read(const Json& j, std::optional<double>& v) {
-    v = j.is_null() ? std::nullopt : std::optional(j.get<double>());
+  template <typename T>
+  static void read(const Json& j, std::optional<T>& v) {
+    v.reset();
+    if (!j.is_null()) read(j, v.emplace());
   }
   template <typename T>
   requires std::is_integral_v<T>
@@ -128,20 +133,21 @@ void fields(Visitor& visit, ErrorFigures& e) {
 /// "run_time_ms": the frame as `walk --json` has it, with its median's interval, and the stages.
 struct RunTime {
   viewer::Percentiles& frame;
+  std::optional<viewer::Percentiles>& gpu;
   Estimate& median;
   Named<viewer::Percentiles>& stages;
   Named<double>& leastStages;
 };
 template <typename Visitor>
 void fields(Visitor& visit, RunTime& t) {
-  visit("frame", t.frame), visit("frame_median", t.median), visit("stages", t.stages);
+  visit("frame", t.frame), visit("gpu", t.gpu), visit("frame_median", t.median), visit("stages", t.stages);
   visit("least_stages", t.leastStages);
 }
 template <typename Visitor>
 void fields(Visitor& visit, RunFigures& r) {
   visit("name", r.name), visit("path", r.path), visit("frames", r.frames);
   visit("knobs", r.knobs), visit("features", r.features);
-  RunTime time{r.frame, r.frameMedian, r.stages, r.leastStages};
+  RunTime time{r.frame, r.gpu, r.frameMedian, r.stages, r.leastStages};
   visit("run_time_ms", time);
   visit("counts", r.counts), visit("memory_mb", r.memory), visit("error", r.error);
 }

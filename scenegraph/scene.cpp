@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <chrono>
 #include <cmath>
 #include <osg/ClipControl>
 #include <osg/CullFace>
@@ -168,6 +169,8 @@ struct Scene::Impl {
   std::shared_ptr<TileTable> tiles;
   FrameUniforms uniforms;
   DrawCounts counts;
+  std::vector<std::string> applyNames;  ///< one for each feature
+  std::vector<city::StageTime> applyTimes;
   uint64_t sharedBinds = 0;  ///< textures on the root, each bound once a frame
   uint64_t sharedBytes = 0;
   glm::dmat4 eyeFromWorld{1}, clipFromEye{1};
@@ -199,6 +202,8 @@ Scene::Scene(const city::City& city, const city::Knobs& knobs, city::Diagnostics
   s.features.push_back(makeSky());
   if (!city.water.empty()) s.features.push_back(makeWater(city));
   for (const auto& feature : s.features) s.root->addChild(feature->node());
+  for (const auto& feature : s.features) s.applyNames.push_back("apply " + feature->name());
+  for (const std::string& name : s.applyNames) s.applyTimes.push_back({name, 0});
 
   osg::StateSet& states = *s.root->getOrCreateStateSet();
   states.setAttributeAndModes(new osg::Depth(osg::Depth::GREATER, 0, 1, true));
@@ -269,9 +274,12 @@ void Scene::apply(const city::FramePlan& plan, Variant variant, const PictureWin
 
   s.counts = {};
   s.counts.textureBinds = s.sharedBinds;
-  for (const auto& feature : s.features) {
-    s.counts += feature->apply(plan);
-    feature->show(variant);
+  for (size_t k = 0; k < s.features.size(); ++k) {
+    const auto begin = std::chrono::steady_clock::now();
+    s.counts += s.features[k]->apply(plan);
+    s.features[k]->show(variant);
+    s.applyTimes[k].milliseconds =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   }
 }
 
@@ -285,6 +293,10 @@ const glm::dmat4& Scene::clipFromEye() const {
 
 const DrawCounts& Scene::counts() const {
   return impl_->counts;
+}
+
+std::span<const city::StageTime> Scene::applyTimes() const {
+  return impl_->applyTimes;
 }
 
 uint64_t Scene::gpuBytes() const {

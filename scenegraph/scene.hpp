@@ -65,6 +65,8 @@ class Scene {
   const glm::dmat4& eyeFromWorld() const;
   const glm::dmat4& clipFromEye() const;
   const DrawCounts& counts() const;
+  /// How long each feature took to write the last plan: "apply buildings", … The names live as long as the scene.
+  std::span<const city::StageTime> applyTimes() const;
   /// Bytes allocated on the graphics card for buffers and textures.
   uint64_t gpuBytes() const;
   /// The graph as text: one line a node with its name, class and counts, indented (`vicus info --graph`).

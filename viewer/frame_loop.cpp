@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 namespace vicus::viewer {
 namespace {
@@ -28,31 +29,34 @@ std::span<const city::Knob> viewerKnobs() {
 }
 
 FrameRecord drawFrame(const Stage& stage, Clock::time_point begin, const std::function<city::FramePlan()>& makePlan,
-                      city::FramePlan* planned) {
+                      city::FramePlan* planned, const std::function<void()>& inScene) {
   FrameRecord record;
 
   // Plan: everything decided, nothing drawn.
   city::FramePlan plan = makePlan();
-  for (const city::StageTime& s : plan.stages) record.stages.push_back({s.name, s.milliseconds});
+  for (const city::StageTime& s : plan.stages) record.stages.add(s.name, s.milliseconds);
 
-  // Apply, traverse, finish: the plan into the scene graph, and the scene graph onto the card.
-  const DrawTimes times = stage.renderer.draw(plan);
-  record.stages.push_back({"apply", times.apply});
-  record.stages.push_back({"traverse", times.traverse});
-  record.stages.push_back({"finish", times.finish});
+  // The plan into the scene graph, and the scene graph onto the card.
+  const DrawTimes times = stage.renderer->draw(plan, inScene);
+  for (const StageSample& s : times.stages) record.stages.add(s.name, s.milliseconds);
   record.milliseconds = millisecondsSince(begin);
+  record.gpuMilliseconds = times.gpuMilliseconds;
   record.counts = plan.counts;
-  record.draw = stage.scene.counts();
+  record.draw = stage.scene->counts();
   if (planned) *planned = std::move(plan);
   return record;
 }
 
 std::vector<FrameRecord> runFrames(const Stage& stage, const LoopHooks& hooks) {
   std::vector<FrameRecord> records;
+  if (hooks.keepRecords) records.reserve(hooks.expectedFrames);
   size_t frame = 0;
   plan::PlannerState state;
+  const plan::Planner* planner = stage.planner;
   for (;;) {
     if (hooks.pause) hooks.pause();
+    // Another planner remembers other things.
+    if (std::exchange(planner, stage.planner) != stage.planner) state = {};
     const Clock::time_point begin = Clock::now();
 
     // Input: where the eye is now.
@@ -60,28 +64,40 @@ std::vector<FrameRecord> runFrames(const Stage& stage, const LoopHooks& hooks) {
     if (!next) return records;
     const double input = millisecondsSince(begin);
 
-    FrameRecord record =
-        drawFrame(stage, begin, [&] { return stage.planner.plan(stage.city, next->view, next->dt, state); });
-    record.stages.insert(record.stages.begin(), {"input", input});
+    city::FramePlan plan;
+    FrameRecord drawn = drawFrame(
+        stage, begin,
+        [&] {
+          return hooks.plan ? hooks.plan(*next, state) : stage.planner->plan(*stage.city, next->view, next->dt, state);
+        },
+        &plan, hooks.inScene);
+    FrameRecord record = drawn;
+    record.stages = {{"input", input}};
+    for (const StageSample& s : drawn.stages) record.stages.add(s.name, s.milliseconds);
 
-    // Swap: show it.
-    const Clock::time_point drawn = Clock::now();
-    if (hooks.windowSize) stage.renderer.present(hooks.windowSize());
-    stage.context.swap();
-    record.stages.push_back({"swap", millisecondsSince(drawn)});
+    // Overlay and swap: show it.
+    StageClock after;
+    if (hooks.overlay) {
+      hooks.overlay(*next, record, plan);
+      record.stages.add("overlay", after.lap());
+    }
+    if (hooks.windowSize) stage.renderer->present(hooks.windowSize());
+    stage.context->swap();
+    record.stages.add("swap", after.lap());
 
     if (next->warmUp) continue;
     if (hooks.drawn) hooks.drawn(frame, record);
     ++frame;
-    if (hooks.keepRecords) records.push_back(std::move(record));
+    if (hooks.keepRecords) records.push_back(record);
   }
 }
 
 RunTimes timesOf(std::span<const FrameRecord> records) {
-  std::vector<double> frames;
+  std::vector<double> frames, gpu;
   std::vector<std::pair<std::string, std::vector<double>>> stages;
   for (const FrameRecord& r : records) {
     frames.push_back(r.milliseconds);
+    if (r.gpuMilliseconds) gpu.push_back(*r.gpuMilliseconds);
     for (const StageSample& s : r.stages) {
       auto it = std::find_if(stages.begin(), stages.end(), [&](const auto& known) { return known.first == s.name; });
       if (it == stages.end()) it = stages.insert(stages.end(), {std::string(s.name), {}});
@@ -90,6 +106,7 @@ RunTimes timesOf(std::span<const FrameRecord> records) {
   }
   RunTimes out;
   out.frame = percentiles(frames);
+  if (!gpu.empty()) out.gpu = percentiles(gpu);
   for (const auto& [name, values] : stages) out.stages.emplace_back(name, percentiles(values));
   return out;
 }

@@ -30,33 +30,35 @@ struct NextView {
   bool warmUp = false;  ///< drawn, but not counted
 };
 
-/// One stage of a frame.
-struct StageSample {
-  std::string_view name;
-  double milliseconds = 0;
-};
-
-/// What one frame cost. The frame's time runs from its start to `glFinish`; showing it (`swap`) comes after.
+/// What one frame cost. The frame's time runs from its start to `glFinish`; the overlay and showing it (`swap`) come
+/// after.
 struct FrameRecord {
   double milliseconds = 0;
-  std::vector<StageSample> stages;  ///< input, the plan's steps, apply, traverse, finish, swap
+  /// input, the plan's steps, apply FEATURE…, update, cull, draw, finish, overlay, swap. Names live as long as the
+  /// scene.
+  StageSamples stages;
+  std::optional<double>
+      gpuMilliseconds;  ///< between the first and the last GL command; nothing where the driver tells none
   city::PlanCounts counts;
   scenegraph::DrawCounts draw;
 };
 
-/// What the loop works with: all made by the caller, all outliving the loop.
+/// What the loop works with: all made by the caller, none of it null. The caller may put others in their places between
+/// two frames, in `LoopHooks::pause`.
 struct Stage {
-  const city::City& city;
-  const plan::Planner& planner;
-  scenegraph::Scene& scene;
-  Renderer& renderer;
-  GlContext& context;
+  const city::City* city = nullptr;
+  const plan::Planner* planner = nullptr;
+  scenegraph::Scene* scene = nullptr;
+  Renderer* renderer = nullptr;
+  GlContext* context = nullptr;
 };
 
 /// The measured part of a frame: makes the plan, draws it and waits for the card. The record's stages are the plan's
-/// steps, apply, traverse and finish; its time runs from `begin`. The plan is handed over to `planned` where given.
+/// steps and those of `Renderer::draw`; its time runs from `begin`. The plan is handed over to `planned` where given.
+/// `inScene` as in `Renderer::draw`.
 FrameRecord drawFrame(const Stage& stage, std::chrono::steady_clock::time_point begin,
-                      const std::function<city::FramePlan()>& makePlan, city::FramePlan* planned = nullptr);
+                      const std::function<city::FramePlan()>& makePlan, city::FramePlan* planned = nullptr,
+                      const std::function<void()>& inScene = {});
 
 /// What differs between a window and a row of pictures.
 struct LoopHooks {
@@ -64,12 +66,20 @@ struct LoopHooks {
   std::function<void()> pause;
   /// Reads the devices or the tour: the next view, or nothing to end.
   std::function<std::optional<NextView>()> nextView;
+  /// Makes the plan instead of the planner, in the frame's time: the frozen view. May be empty.
+  std::function<city::FramePlan(const NextView& next, plan::PlannerState& state)> plan;
+  /// Draws more into the scene, with its depth; see `Renderer::draw`. May be empty.
+  std::function<void()> inScene;
+  /// Draws over the finished picture, outside the frame's time. May be empty.
+  std::function<void(const NextView& next, const FrameRecord& record, const city::FramePlan& plan)> overlay;
   /// Pixels of the framebuffer that shows the frame; empty where nothing is shown.
   std::function<glm::ivec2()> windowSize;
   /// After each counted frame, outside its time; may read the picture. `frame` counts from 0. May be empty.
   std::function<void(size_t frame, const FrameRecord& record)> drawn;
   /// False where nobody will ask for the figures: a kiosk runs for weeks.
   bool keepRecords = true;
+  /// Counted frames to make room for, so that keeping their records allocates nothing; 0 where nobody knows.
+  size_t expectedFrames = 0;
 };
 
 /// Draws frame after frame until there is no next view. Returns the records of all but the warm-up frames.
@@ -78,6 +88,7 @@ std::vector<FrameRecord> runFrames(const Stage& stage, const LoopHooks& hooks);
 /// Frame and stage times of a run. Stages are in the order of their first appearance.
 struct RunTimes {
   Percentiles frame;
+  std::optional<Percentiles> gpu;  ///< nothing where the driver tells none
   std::vector<std::pair<std::string, Percentiles>> stages;
 };
 RunTimes timesOf(std::span<const FrameRecord> records);

@@ -3,6 +3,8 @@
 
 #include "scenegraph/gl.hpp"
 
+#include <algorithm>
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <string>
 
@@ -24,6 +26,11 @@ class Framebuffer {
   GLuint name() const { return name_; }
   glm::ivec2 size() const { return size_; }
   int samples() const { return samples_; }
+  /// Of its attachments, each four bytes for each sample; 0 where it is not made.
+  uint64_t bytes() const {
+    return static_cast<uint64_t>(size_.x) * static_cast<uint64_t>(size_.y) *
+           static_cast<uint64_t>(std::max(samples_, 1)) * (depth_ != 0 ? 8U : 4U);
+  }
 
  private:
   GLuint name_ = 0, colour_ = 0, depth_ = 0;

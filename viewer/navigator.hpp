@@ -11,11 +11,15 @@ namespace vicus::viewer {
 /// What the devices said since the last frame. Anything may be missing or not finite.
 struct Input {
   bool forward = false, back = false, left = false, right = false;
-  bool up = false, down = false;  ///< flying only
-  bool fast = false;              ///< shift
-  bool toggleFlight = false;      ///< true once for each press
-  glm::dvec2 mouse{0};            ///< pixels that the mouse has moved: right and down positive
-  bool quit = false;              ///< Esc, or the window was closed
+  bool up = false, down = false;                     ///< flying only
+  bool fast = false;                                 ///< shift
+  bool toggleFlight = false;                         ///< true once for each press
+  glm::dvec2 mouse{0};                               ///< pixels that the mouse has moved: right and down positive
+  bool toggleOverlay = false, toggleFreeze = false;  ///< F2, F3: true once for each press
+  glm::dvec2 pointer{-1};                            ///< pixels from the picture's upper left corner
+  bool leftButton = false, rightButton = false;      ///< held down
+  double wheel = 0;                                  ///< notches since the last frame, up positive
+  bool quit = false;                                 ///< Esc, or the window was closed
 };
 
 /// The visitor between two frames.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstring>
 #include <osg/Camera>
 #include <osg/Group>
@@ -20,11 +19,13 @@
 namespace vicus::viewer {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double millisecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
+/// Called by OpenSceneGraph when its cull traversal is done and drawing begins.
+class DrawBegins : public osg::Camera::DrawCallback {
+ public:
+  void operator()(osg::RenderInfo&) const override { cullMilliseconds = clock.lap(); }
+  mutable StageClock clock;
+  mutable double cullMilliseconds = 0;
+};
 
 const char* errorInWords(GLenum error) {
   switch (error) {
@@ -83,6 +84,8 @@ struct Renderer::Impl {
   glm::ivec2 pictureSize{0};
   std::vector<std::string> problems;
   std::array<bool, 2> programsChecked{};  ///< for each Variant
+  osg::ref_ptr<DrawBegins> drawBegins = new DrawBegins;
+  std::array<GLuint, 2> timers{};  ///< queries of the card's clock at a frame's begin and end; 0: it has none
 
   Impl(GlContext& c, scenegraph::Scene& s, int samples) : context(c), scene(s), multisamples(samples) {}
 
@@ -97,7 +100,9 @@ struct Renderer::Impl {
   }
 
   /// OpenSceneGraph draws what the scene's last `apply` wrote into the bound framebuffer's corner of `size` pixels.
-  void traverse(glm::ivec2 size, double time, scenegraph::Variant variant) {
+  /// Adds update, cull and draw to `stages` where given.
+  void traverse(glm::ivec2 size, double time, scenegraph::Variant variant, StageSamples* stages = nullptr) {
+    StageClock clock;
     osg::Camera* camera = viewer->getCamera();
     camera->setViewport(0, 0, size.x, size.y);
     camera->setViewMatrix(scenegraph::toOsg(scene.eyeFromWorld()));
@@ -105,7 +110,14 @@ struct Renderer::Impl {
     viewer->advance(time);
     viewer->eventTraversal();
     viewer->updateTraversal();
+    const double update = clock.lap();
+    drawBegins->clock = StageClock();
     viewer->renderingTraversals();
+    if (stages) {
+      stages->add("update", update);
+      stages->add("cull", drawBegins->cullMilliseconds);
+      stages->add("draw", clock.lap() - drawBegins->cullMilliseconds);
+    }
     if (programsChecked[static_cast<size_t>(variant)]) return;
     programsChecked[static_cast<size_t>(variant)] = true;
     ProgramCheck check(*window->getState());
@@ -190,8 +202,12 @@ Renderer::Renderer(GlContext& context, scenegraph::Scene& scene, int multisample
   camera->setCullingMode(osg::CullSettings::NO_CULLING);
   camera->setAllowEventFocus(false);
   camera->setProjectionResizePolicy(osg::Camera::FIXED);
+  camera->setInitialDrawCallback(s.drawBegins);
   s.viewer->setSceneData(scene.root());
   s.viewer->realize();
+  GLint bits = 0;
+  glGetQueryiv(GL_TIMESTAMP, GL_QUERY_COUNTER_BITS, &bits);
+  if (bits > 0) glGenQueries(static_cast<GLsizei>(s.timers.size()), s.timers.data());
   s.checkGl("setting up");
 }
 
@@ -199,30 +215,58 @@ Renderer::~Renderer() {
   Impl& s = *impl_;
   s.context.makeCurrent();
   s.scene.root()->releaseGLObjects(s.window->getState());
+  if (s.timers[0] != 0) glDeleteQueries(static_cast<GLsizei>(s.timers.size()), s.timers.data());
   for (Framebuffer* target : {&s.drawn, &s.resolved, &s.items, &s.supersampled}) target->release();
   s.viewer->setSceneData(nullptr);
 }
 
-DrawTimes Renderer::draw(const city::FramePlan& plan) {
+void Renderer::setMultisamples(int multisamples) {
+  impl_->multisamples = multisamples;
+}
+
+DrawTimes Renderer::draw(const city::FramePlan& plan, const std::function<void()>& inScene) {
   Impl& s = *impl_;
   DrawTimes times;
-  const auto start = Clock::now();
   s.scene.apply(plan, scenegraph::Variant::Colour);
-  times.apply = millisecondsSince(start);
+  for (const city::StageTime& t : s.scene.applyTimes()) times.stages.add(t.name, t.milliseconds);
 
-  const auto traversalStart = Clock::now();
   const glm::ivec2 size = plan.view.viewport;
   if (!s.begin(s.drawn, size, GL_RGBA8, s.multisamples)) return times;
-  s.traverse(size, plan.view.time, scenegraph::Variant::Colour);
-  times.traverse = millisecondsSince(traversalStart);
+  if (s.timers[0] != 0) glQueryCounter(s.timers[0], GL_TIMESTAMP);
+  s.traverse(size, plan.view.time, scenegraph::Variant::Colour, &times.stages);
 
-  const auto finishStart = Clock::now();
+  StageClock finish;
+  if (inScene) {
+    glBindFramebuffer(GL_FRAMEBUFFER, s.drawn.name());
+    inScene();
+  }
   if (s.drawn.samples() > 0) s.resolve(s.drawn);
+  if (s.timers[1] != 0) glQueryCounter(s.timers[1], GL_TIMESTAMP);
   glFinish();
   s.pictureSize = size;
   s.checkGl("drawing a picture");
-  times.finish = millisecondsSince(finishStart);
+  times.stages.add("finish", finish.lap());
+  if (s.timers[1] != 0) {
+    std::array<GLuint64, 2> at{};  // nanoseconds
+    for (size_t k = 0; k < 2; ++k) glGetQueryObjectui64v(s.timers[k], GL_QUERY_RESULT, &at[k]);
+    times.gpuMilliseconds = static_cast<double>(at[1] - at[0]) * 1e-6;
+  }
   return times;
+}
+
+void Renderer::drawOver(const std::function<void(glm::ivec2)>& paint) {
+  Impl& s = *impl_;
+  if (s.pictureSize.x == 0 || s.picture().name() == 0) return;
+  s.context.makeCurrent();
+  glBindFramebuffer(GL_FRAMEBUFFER, s.picture().name());
+  glViewport(0, 0, s.pictureSize.x, s.pictureSize.y);
+  paint(s.pictureSize);
+  s.checkGl("drawing over a picture");
+}
+
+uint64_t Renderer::gpuBytes() const {
+  const Impl& s = *impl_;
+  return s.drawn.bytes() + s.resolved.bytes() + s.items.bytes() + s.supersampled.bytes();
 }
 
 Picture Renderer::readPicture() {

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "city/frame_plan.hpp"
 #include "scenegraph/scene.hpp"
+#include "viewer/measure.hpp"
 
 namespace vicus::viewer {
 
@@ -38,11 +41,13 @@ struct ItemBuffer {
   std::vector<uint32_t> ids;
 };
 
-/// Milliseconds of one drawn frame by stage.
+/// What drawing one frame took.
 struct DrawTimes {
-  double apply = 0;     ///< writing the plan into the scene graph
-  double traverse = 0;  ///< OpenSceneGraph's update, cull and draw traversals
-  double finish = 0;    ///< resolve and glFinish
+  /// apply FEATURE… (writing the plan into the scene graph), update, cull and draw (OpenSceneGraph's traversals),
+  /// finish (resolve and glFinish).
+  StageSamples stages;
+  /// On the graphics card, from the first command to the last; nothing where the driver has no timer queries.
+  std::optional<double> gpuMilliseconds;
 };
 
 /// Owns the framebuffers and the embedded osgViewer. One scene, any number of views drawn one after another.
@@ -51,10 +56,16 @@ class Renderer {
   /// `multisamples` 1, 2, 4 or 8 for colour.
   Renderer(GlContext& context, scenegraph::Scene& scene, int multisamples);
   ~Renderer();
+  /// From the next picture on.
+  void setMultisamples(int multisamples);
 
-  /// Draws the plan's view at its viewport into the colour target and waits for the card (`glFinish`).
-  DrawTimes draw(const city::FramePlan& plan);
-  /// The picture that `draw` made last.
+  /// Draws the plan's view at its viewport into the colour target and waits for the card (`glFinish`). `inScene`, where
+  /// given, draws more with raw GL into the bound target, with the scene's depth (greater is nearer), before the
+  /// samples are averaged.
+  DrawTimes draw(const city::FramePlan& plan, const std::function<void()>& inScene = {});
+  /// Lets `paint` draw with raw GL over the picture that `draw` made last: its framebuffer is bound, its viewport set.
+  void drawOver(const std::function<void(glm::ivec2 size)>& paint);
+  /// The picture that `draw` made last, with what was drawn over it.
   Picture readPicture();
   /// Copies it to the window's framebuffer.
   void present(glm::ivec2 windowSize);
@@ -64,6 +75,8 @@ class Renderer {
   /// The plan's view supersampled 4×4 and averaged; `plan` should be that of every technique off.
   Picture drawReference(const city::FramePlan& plan);
 
+  /// Bytes of the framebuffers.
+  uint64_t gpuBytes() const;
   /// Framebuffer errors and GL errors seen so far, in plain words; empty is good.
   const std::vector<std::string>& problems() const;
 

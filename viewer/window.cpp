@@ -40,7 +40,20 @@ struct Window::Impl {
   GLFWwindow* window = nullptr;
   glm::dvec2 lastMouse{0};
   bool mouseKnown = false;  ///< false: the next position is the first, and no movement
-  bool flightKeyWasDown = false;
+  bool mouseFree = false;
+  double wheel = 0;  ///< since the last poll
+  struct Toggle {
+    int key;
+    bool wasDown = false;
+  };
+  Toggle flight{GLFW_KEY_F}, overlay{GLFW_KEY_F2}, freeze{GLFW_KEY_F3};
+
+  /// True once for each press.
+  bool pressed(Toggle& toggle) {
+    const bool isDown = down({toggle.key});
+    const bool wasDown = std::exchange(toggle.wasDown, isDown);
+    return isDown && !wasDown;
+  }
 
   bool down(std::initializer_list<int> keys) const {
     return std::any_of(keys.begin(), keys.end(), [&](int key) { return glfwGetKey(window, key) == GLFW_PRESS; });
@@ -68,6 +81,10 @@ std::unique_ptr<Window> Window::open(const Options& options, std::string& error)
   window->makeCurrent();
   glfwSwapInterval(options.vsync ? 1 : 0);
   glfwSetInputMode(window->impl_->window, GLFW_CURSOR, GLFW_CURSOR_DISABLED);
+  glfwSetWindowUserPointer(window->impl_->window, window->impl_.get());
+  glfwSetScrollCallback(window->impl_->window, [](GLFWwindow* w, double, double notches) {
+    static_cast<Impl*>(glfwGetWindowUserPointer(w))->wheel += notches;
+  });
   // A key pressed and let go between two slow frames still counts for one.
   glfwSetInputMode(window->impl_->window, GLFW_STICKY_KEYS, GLFW_TRUE);
   return window;
@@ -105,9 +122,12 @@ Input Window::poll() {
   input.down = w.down({GLFW_KEY_Q});
   input.fast = w.down({GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT});
   input.quit = w.down({GLFW_KEY_ESCAPE}) || glfwWindowShouldClose(w.window);
-  const bool flightKey = w.down({GLFW_KEY_F});
-  input.toggleFlight = flightKey && !std::exchange(w.flightKeyWasDown, flightKey);
-  w.flightKeyWasDown = flightKey;
+  input.toggleFlight = w.pressed(w.flight);
+  input.toggleOverlay = w.pressed(w.overlay);
+  input.toggleFreeze = w.pressed(w.freeze);
+  input.leftButton = glfwGetMouseButton(w.window, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS;
+  input.rightButton = glfwGetMouseButton(w.window, GLFW_MOUSE_BUTTON_RIGHT) == GLFW_PRESS;
+  input.wheel = std::exchange(w.wheel, 0.0);
 
   glm::dvec2 mouse;
   glfwGetCursorPos(w.window, &mouse.x, &mouse.y);
@@ -115,7 +135,18 @@ Input Window::poll() {
   const bool focused = glfwGetWindowAttrib(w.window, GLFW_FOCUSED) == GLFW_TRUE;
   if (focused && w.mouseKnown) input.mouse = mouse - w.lastMouse;
   w.lastMouse = mouse, w.mouseKnown = focused;
+  // The pointer is told in screen coordinates, which may be larger than pixels.
+  glm::ivec2 screen(1), pixels(1);
+  glfwGetWindowSize(w.window, &screen.x, &screen.y);
+  glfwGetFramebufferSize(w.window, &pixels.x, &pixels.y);
+  if (w.mouseFree) input.pointer = mouse * glm::dvec2(pixels) / glm::dvec2(glm::max(screen, glm::ivec2(1)));
   return input;
+}
+
+void Window::freeMouse(bool free) {
+  if (std::exchange(impl_->mouseFree, free) == free) return;
+  glfwSetInputMode(impl_->window, GLFW_CURSOR, free ? GLFW_CURSOR_NORMAL : GLFW_CURSOR_DISABLED);
+  impl_->mouseKnown = false;
 }
 
 glm::ivec2 Window::size() const {

@@ -13,7 +13,8 @@ namespace vicus::viewer {
 std::string displayProblem();
 
 /// A window with a GL context (compatibility profile, 4.5 down to 4.3), its keys and its mouse: W A S D or the arrows,
-/// Q and E down and up in flight, shift fast, F walk or fly, Esc ends. Invariant: while it lives the mouse is its own.
+/// Q and E down and up in flight, shift fast, F walk or fly, F2 the
+/// overlay, F3 the frozen plan, Esc ends. Invariant: while it lives the mouse is its own, unless freed.
 class Window : public GlContext {
  public:
   struct Options {
@@ -31,6 +32,8 @@ class Window : public GlContext {
 
   /// What happened since the last call.
   Input poll();
+  /// Shows the pointer and lets it go anywhere, or takes it back.
+  void freeMouse(bool free);
   /// Pixels of the framebuffer; 1 × 1 at least, also while the window is minimised.
   glm::ivec2 size() const;
   void setTitle(const std::string& title);

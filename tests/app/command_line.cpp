@@ -251,7 +251,7 @@ TEST_F(CommandLine, WalkDrawsPicturesAndFigures) {
   EXPECT_FALSE(figures.at("renderer").get<std::string>().empty());
   EXPECT_TRUE(figures.at("features").at("frustum_culling").at("on"));
   for (const char* p : {"median", "p95", "p99", "max"}) EXPECT_GT(figures.at("run_time_ms").at("frame").at(p), 0);
-  for (const char* stage : {"input", "apply", "traverse", "finish", "swap"})
+  for (const char* stage : {"input", "apply buildings", "update", "cull", "draw", "finish", "swap"})
     EXPECT_TRUE(figures.at("run_time_ms").at("stages").at(stage).contains("median")) << stage;
   for (const char* count :
        {"tiles", "tiles_drawn", "instances", "instances_in_frustum", "instances_occluded", "instances_drawn",

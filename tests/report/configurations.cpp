@@ -44,6 +44,22 @@ TEST(Configurations, EachAloneAllAndAllButEach) {
                                  "all_on_less_hide bend", "all_on_less_bend hide", "visibility hide", "limit hide"));
 }
 
+TEST(Configurations, WhatIsOffIsMeasuredAloneAndIsNotInAll) {
+  city::Knobs knobs = someKnobs();
+  knobs.set("hide", 0);
+  std::vector<std::string> found;
+  for (const Configuration& c : configurations(knobs, kTechniques))
+    found.push_back(c.name + (c.knobs.on("hide") ? " hide" : "") + (c.knobs.on("bend") ? " bend" : ""));
+  EXPECT_THAT(found, ElementsAre("all_off", "only_hide hide", "only_bend bend", "all_on bend", "all_on_less_bend",
+                                 "visibility", "limit"));
+  // Its own curve turns it on.
+  knobs.set("bend", 0);
+  for (const SweepPoint& p : sweepOf(kTechniques[1], knobs, kTechniques, 3)) {
+    EXPECT_TRUE(p.configuration.knobs.on("bend"));
+    EXPECT_FALSE(p.configuration.knobs.on("hide"));
+  }
+}
+
 TEST(Configurations, OtherKnobsStay) {
   city::Knobs knobs = someKnobs();
   knobs.set("bend.error", 7);

@@ -1,0 +1,30 @@
+#include "viewer/drawing.hpp"
+
+#include <algorithm>
+#include <span>
+
+namespace vicus::viewer {
+namespace {
+
+bool isOf(std::span<const city::Knob> knobs, std::string_view name) {
+  return std::ranges::any_of(knobs, [&](const city::Knob& knob) { return knob.name == name; });
+}
+
+}  // namespace
+
+bool turn(Drawing& drawing, std::string_view knob, double value) {
+  if (!drawing.knobs.set(knob, value).empty()) return false;
+  drawing.context.makeCurrent();
+  if (isOf(plan::planKnobs(), knob)) drawing.planner = std::make_unique<plan::Planner>(drawing.city, drawing.knobs);
+  if (knob == "viewer.multisamples") drawing.renderer->setMultisamples(static_cast<int>(value));
+  if (!isOf(scenegraph::sceneKnobs(), knob)) return true;
+  drawing.renderer.reset();
+  drawing.scene.reset();
+  city::Diagnostics diagnostics;  // the same as when the scene was made first
+  drawing.scene = std::make_unique<scenegraph::Scene>(drawing.city, drawing.knobs, diagnostics);
+  drawing.renderer = std::make_unique<Renderer>(drawing.context, *drawing.scene,
+                                                static_cast<int>(drawing.knobs["viewer.multisamples"]));
+  return true;
+}
+
+}  // namespace vicus::viewer
