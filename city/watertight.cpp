@@ -16,6 +16,16 @@ class Weld {
  public:
   /// The corner at or within `kWeldDistance` of p, a new one where there is none.
   Corner at(glm::vec3 p) {
+    // Most buildings have few corners: looking at each costs less than looking into 27 cells.
+    if (positions.size() <= kFew) {
+      for (size_t i = 0; i < positions.size(); ++i)
+        if (glm::distance(positions[i], p) <= kWeldDistance) return static_cast<Corner>(i);
+      positions.push_back(p);
+      if (positions.size() > kFew)
+        for (size_t i = 0; i < positions.size(); ++i)
+          cells_.emplace(keyOf(glm::ivec3(glm::floor(positions[i] / kCell))), static_cast<Corner>(i));
+      return static_cast<Corner>(positions.size() - 1);
+    }
     const glm::ivec3 cell(glm::floor(p / kCell));
     for (int x = -1; x <= 1; ++x)
       for (int y = -1; y <= 1; ++y)
@@ -34,6 +44,7 @@ class Weld {
 
  private:
   static constexpr float kCell = 2 * kWeldDistance;
+  static constexpr size_t kFew = 96;
   static uint64_t keyOf(glm::ivec3 cell) {
     const auto part = [](int v) { return static_cast<uint64_t>(static_cast<uint32_t>(v)) & 0x1fffffU; };
     return part(cell.x) | part(cell.y) << 21U | part(cell.z) << 42U;
@@ -136,6 +147,9 @@ size_t makeWatertight(std::vector<Vertex>& vertices, std::span<std::vector<uint3
   std::vector<Corner> cornerOf(vertices.size());
   std::vector<bool> welded(vertices.size(), false);
   std::unordered_map<uint64_t, uint32_t> edges;
+  size_t indices = 0;
+  for (const std::vector<uint32_t>* surface : surfaces) indices += surface->size();
+  edges.reserve(indices);
   for (size_t s = 0; s < surfaces.size(); ++s) {
     std::vector<uint32_t>* const surface = surfaces[s];
     std::vector<uint32_t> kept;

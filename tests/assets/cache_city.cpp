@@ -125,7 +125,9 @@ TEST(LoadCity, FromTheCacheIsTheSameCity) {
   const std::string file = folder.write("town.geojson", geoJson(features));
   LoadOptions options;
   options.cacheFolder = (folder.path() / "cache").string();
-  const LoadResult cold = load(file, options), warm = load(file, options);
+  const LoadResult cold = load(file, options);
+  cold.cached.wait();  // it is written while the city is shown
+  const LoadResult warm = load(file, options);
   ASSERT_TRUE(cold.city && warm.city);
   EXPECT_FALSE(cold.fromCache);
   EXPECT_TRUE(warm.fromCache);
@@ -139,6 +141,7 @@ TEST(LoadCity, FromTheCacheIsTheSameCity) {
   features.pop_back();
   folder.write("town.geojson", geoJson(features));
   const LoadResult changed = load(file, options);
+  changed.cached.wait();
   EXPECT_FALSE(changed.fromCache);
   EXPECT_EQ(changed.city->buildings.size(), 19u);
   EXPECT_THAT(messagesOf(changed.diagnostics), testing::HasSubstr("made from other data"));
