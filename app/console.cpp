@@ -39,8 +39,9 @@ struct Console::Impl {
   std::ostream& err;
   bool terminal;
   spdlog::logger log;
-  std::string stage;      ///< shown last
-  int percent = -1;       ///< shown last
+  std::string stage;  ///< shown last
+  int percent = -1;   ///< shown last
+  std::vector<std::string> errors;
   bool lineOpen = false;  ///< a line of progress stands in the terminal
 
   void wipe() {
@@ -70,6 +71,7 @@ void Console::error(std::string_view text) {
   const std::lock_guard lock(impl_->mutex);
   impl_->wipe();
   impl_->log.error("error: {}", text);
+  impl_->errors.emplace_back(text);
 }
 
 void Console::progress(std::string_view stage, double fraction) {
@@ -92,6 +94,16 @@ void Console::progressDone() {
   impl_->wipe();
   impl_->stage.clear();
   impl_->percent = -1;
+}
+
+std::pair<std::string, double> Console::shownProgress() const {
+  const std::lock_guard lock(impl_->mutex);
+  return {impl_->stage, std::max(impl_->percent, 0) / 100.0};
+}
+
+std::vector<std::string> Console::errors() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->errors;
 }
 
 void Console::report(const city::Diagnostics& diagnostics) {

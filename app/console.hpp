@@ -5,6 +5,8 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "city/diagnostics.hpp"
 
@@ -34,6 +36,10 @@ class Console {
   void progress(std::string_view stage, double fraction);
   /// Wipes the line of progress.
   void progressDone();
+  /// The stage and fraction that were shown last, for others who show them.
+  std::pair<std::string, double> shownProgress() const;
+  /// The errors so far, as they were said.
+  std::vector<std::string> errors() const;
 
   /// Says the first ten messages of each kind (same file and wording, whatever their numbers) and how many more there
   /// are, then what was left out.

@@ -6,6 +6,7 @@
 
 #include "assets/load_city.hpp"
 #include "viewer/frame_loop.hpp"
+#include "viewer/navigator.hpp"
 
 namespace vicus::app {
 
@@ -14,6 +15,7 @@ city::Knobs allKnobs() {
   knobs.declare(plan::planKnobs());
   knobs.declare(scenegraph::sceneKnobs());
   knobs.declare(viewer::viewerKnobs());
+  knobs.declare(viewer::navigatorKnobs());
   return knobs;
 }
 

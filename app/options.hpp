@@ -41,6 +41,7 @@ struct WalkOptions {
   glm::ivec2 size{1280, 720};
   std::string out;  ///< folder for pictures; empty: not given
   std::optional<size_t> every;
+  std::string film;                    ///< video file; empty: none
   std::string json;                    ///< file for the figures; empty: none
   bool overlay = false;                ///< the overlay (F2) from the start
   std::optional<ViewOption> seenFrom;  ///< each frame's plan frozen (F3) and seen from there

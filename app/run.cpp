@@ -13,9 +13,10 @@ struct Parsed {
   InfoOptions info;
   CheckOptions check;
   ReportCommandOptions report;
+  WalkOptions film;
   bool knobsJson = false;
-  std::string shift[4];  ///< of walk, info, check and report
-  std::string walkSize, checkSize;
+  std::string shift[5];  ///< of walk, info, check, report and film
+  std::string walkSize, checkSize, filmSize;
   std::vector<std::string> views, checkViews;
   std::string seenFrom;
 };
@@ -76,6 +77,20 @@ void addWalk(CLI::App& app, Parsed& p) {
       ->type_name("FILE");
 }
 
+void addFilm(CLI::App& app, Parsed& p) {
+  CLI::App& film = *app.add_subcommand("film", "renders a tour to a video file or to pictures, frame by frame");
+  addScene(film, p.film.scene, p.shift[4]);
+  CLI::Option* path = film.add_option("--path", p.film.path, "follow the keys in a JSON file")->type_name("FILE");
+  film.add_option("--tour", p.film.tour, "the tour: street (the default), flyover, turn, teleport, or the scene's")
+      ->type_name("NAME")
+      ->excludes(path);
+  film.add_option("-o,--out", p.film.film, "video file (.mp4, .mkv, .mov, .webm), or a folder for pictures (PNG)")
+      ->required()
+      ->type_name("FILE");
+  film.add_option("--fps", p.film.fps, "frames a second, 30 by default")->check(CLI::Range(1.0, 240.0))->type_name("F");
+  film.add_option("--size", p.filmSize, "of the picture, 1280x720 by default")->type_name("WxH");
+}
+
 void addOthers(CLI::App& app, Parsed& p) {
   CLI::App& info = *app.add_subcommand("info", "what a scene holds, which features are on or off and why");
   addScene(info, p.info.scene, p.shift[1]);
@@ -112,7 +127,7 @@ void addOthers(CLI::App& app, Parsed& p) {
 
 /// Completes the options from their texts; what is wrong, or an empty text.
 std::string complete(Parsed& p) {
-  SceneOptions* scenes[] = {&p.walk.scene, &p.info.scene, &p.check.scene, &p.report.scene};
+  SceneOptions* scenes[] = {&p.walk.scene, &p.info.scene, &p.check.scene, &p.report.scene, &p.film.scene};
   for (size_t k = 0; k < std::size(scenes); ++k) {
     if (scenes[k]->inputs.empty()) scenes[k]->inputs = {"norvic"};
     if (p.shift[k].empty()) continue;
@@ -120,8 +135,8 @@ std::string complete(Parsed& p) {
     if (!numbers) return "--shift takes three numbers x,y,z, not '" + p.shift[k] + "'";
     scenes[k]->shift = {(*numbers)[0], (*numbers)[1], (*numbers)[2]};
   }
-  const std::pair<const std::string*, glm::ivec2*> sizes[] = {{&p.walkSize, &p.walk.size},
-                                                              {&p.checkSize, &p.check.size}};
+  const std::pair<const std::string*, glm::ivec2*> sizes[] = {
+      {&p.walkSize, &p.walk.size}, {&p.checkSize, &p.check.size}, {&p.filmSize, &p.film.size}};
   for (const auto& [text, size] : sizes) {
     if (text->empty()) continue;
     const auto parsed = parseSize(*text);
@@ -153,6 +168,7 @@ int run(std::span<const std::string> arguments, const Surroundings& surroundings
   app.require_subcommand(1);
   addWalk(app, parsed);
   addOthers(app, parsed);
+  addFilm(app, parsed);
 
   // CLI11 would only say that a command is missing.
   const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
@@ -180,6 +196,7 @@ int run(std::span<const std::string> arguments, const Surroundings& surroundings
   }
 
   if (app.got_subcommand("walk")) return walk(parsed.walk, surroundings);
+  if (app.got_subcommand("film")) return film(parsed.film, surroundings);
   if (app.got_subcommand("info")) return info(parsed.info, surroundings);
   if (app.got_subcommand("report")) return report(parsed.report, surroundings);
   if (app.got_subcommand("check")) return check(parsed.check, surroundings);

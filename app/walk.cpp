@@ -11,10 +11,11 @@
 #include "app/figures.hpp"
 #include "app/interrupt.hpp"
 #include "app/open_scene.hpp"
+#include "app/visit.hpp"
 #include "report/stage_trace.hpp"
 #include "viewer/drawing.hpp"
+#include "viewer/film.hpp"
 #include "viewer/live_view.hpp"
-#include "viewer/navigator.hpp"
 #include "viewer/path_file.hpp"
 #include "viewer/pictures.hpp"
 #include "viewer/tours.hpp"
@@ -78,7 +79,10 @@ struct PictureChoice {
 PictureChoice choosePictures(const WalkOptions& options, size_t frames) {
   constexpr size_t kPictures = 8;
   PictureChoice choice;
-  choice.folder = options.out, choice.every = options.every.value_or(1);
+  choice.every = options.every.value_or(1);
+  if (!options.film.empty()) return choice;
+  // In a window a folder alone is where the visitor's own pictures go.
+  if (options.headless || options.every || options.frames || !options.views.empty()) choice.folder = options.out;
   if (!options.out.empty() || !options.headless) return choice;
   choice.folder = "out";
   if (options.every || frames <= kPictures) return choice;
@@ -97,8 +101,9 @@ Screen openScreen(const WalkOptions& options, const city::Knobs& knobs, std::str
   if (options.headless) {
     screen.context = viewer::makeOffscreenContext(error);
   } else {
-    auto window =
-        viewer::Window::open({"Vicus – " + sceneName(options.scene), options.size, knobs.on("viewer.vsync")}, error);
+    auto window = viewer::Window::open({"Vicus – " + sceneName(options.scene), options.size, knobs.on("viewer.vsync"),
+                                        knobs.on("viewer.touch"), static_cast<int>(knobs["viewer.monitor"])},
+                                       error);
     screen.window = window.get();
     screen.context = std::move(window);
   }
@@ -106,8 +111,10 @@ Screen openScreen(const WalkOptions& options, const city::Knobs& knobs, std::str
 }
 
 /// The tour that the user named, `street` where none is (a free walk begins at its start); in `code` the exit code
-/// where there is no such tour.
-std::optional<city::Tour> chooseTour(const WalkOptions& options, const city::City& city, Console& console, int& code) {
+/// where there is no such tour. In a window `tours` gets all.
+std::optional<city::Tour> chooseTour(const WalkOptions& options, const city::City& city, Console& console, int& code,
+                                     std::vector<city::Tour>& tours) {
+  if (!options.headless) tours = viewer::makeTours(city);
   if (!options.path.empty()) {
     city::Diagnostics diagnostics;
     std::optional<city::Tour> path = viewer::readPath(options.path, diagnostics);
@@ -116,7 +123,7 @@ std::optional<city::Tour> chooseTour(const WalkOptions& options, const city::Cit
     return path;
   }
   if (!options.views.empty()) return city::Tour();
-  const std::vector<city::Tour> tours = viewer::makeTours(city);
+  if (tours.empty()) tours = viewer::makeTours(city);
   const std::string name = options.tour.empty() ? "street" : options.tour;
   if (const city::Tour* tour = viewer::findTour(tours, name)) return *tour;
   std::string known;
@@ -129,10 +136,11 @@ std::optional<city::Tour> chooseTour(const WalkOptions& options, const city::Cit
 /// Where the next view comes from, frame after frame.
 class Guide {
  public:
-  Guide(const WalkOptions& options, const OpenScene& scene, const city::Tour& tour, viewer::Window* window)
-      : scene_(scene),
-        tour_(tour),
+  Guide(const WalkOptions& options, const OpenScene& scene, const city::Tour& tour, viewer::Window* window,
+        Visit* visit)
+      : tour_(tour),
         window_(window),
+        visit_(visit),
         size_(options.size),
         fov_(glm::radians(scene.knobs["viewer.fov"])),
         fps_(options.fps) {
@@ -140,7 +148,6 @@ class Guide {
     free_ = window && !guided && options.views.empty() && !options.frames && !options.fps;
     live_ = window && options.views.empty() && !options.frames;
     if (!live_) planned_ = plannedViews(options, tour, fov_);
-    navigator_.pose = viewer::poseAt(tour, tour.keys.empty() ? 0 : tour.keys.front().time);
   }
 
   /// Counted frames, where they are known beforehand.
@@ -149,6 +156,7 @@ class Guide {
         std::count_if(planned_.begin(), planned_.end(), [](const auto& v) { return !v.warmUp; }));
   }
   bool free() const { return free_; }
+  const city::ViewPose& pose() const { return pose_; }  ///< of the last view
 
   /// Where frames have their moments: waits for the next one. Those that would be late are passed over.
   void pause() {
@@ -162,8 +170,11 @@ class Guide {
     viewer::Input input;
     if (window_) input = window_->poll(), size_ = window_->size();
     if (input.quit || interrupted()) return std::nullopt;
+    if (visit_) visit_->handleWindow(input);
     if (live_ && lookedInto_) lookInto(input);
-    return live_ ? liveView(input) : plannedView();
+    std::optional<viewer::NextView> next = live_ ? liveView(input) : plannedView();
+    if (window_) window_->freeMouse(panelHasMouse_ || (free_ && visit_->navigator().wantsPointer()));
+    return next;
   }
 
   /// F2 and F3 work on it from now on.
@@ -177,15 +188,14 @@ class Guide {
     if (input.toggleFreeze) {
       lookedInto_->freeze(!lookedInto_->frozen());
       if (lookedInto_->frozen())
-        frozenAt_ = std::exchange(navigator_, {pose_, {}, true}), frozenFree_ = std::exchange(free_, true);
+        visit_->flyOut(pose_), frozenFree_ = std::exchange(free_, true);
       else
-        navigator_ = frozenAt_, free_ = frozenFree_;
+        visit_->flyBack(), free_ = frozenFree_;
     }
     // The panel has the mouse, and the head turns only while the right button is held.
-    const bool panel = lookedInto_->overlayShown();
-    window_->freeMouse(panel && !input.rightButton);
-    lookedInto_->point({panel && !input.rightButton ? input.pointer : glm::dvec2(-1), input.leftButton, input.wheel});
-    if (panel && !input.rightButton) input.mouse = glm::dvec2(0);
+    panelHasMouse_ = lookedInto_->overlayShown() && !input.rightButton;
+    lookedInto_->point({panelHasMouse_ ? input.pointer : glm::dvec2(-1), input.leftButton, input.wheel});
+    if (panelHasMouse_) input.mouse = glm::dvec2(0), input.wheel = 0, input.leftButton = input.tap = false;
   }
 
   std::optional<viewer::NextView> plannedView() {
@@ -203,8 +213,8 @@ class Guide {
     const double dt = now - time_;
     time_ = now;
     if (free_) {
-      viewer::step(navigator_, input, dt, scene_.city);
-      return nextView(navigator_.pose, fov_, now, dt, warmUp);
+      visit_->step(input, now, dt);
+      return nextView(visit_->navigator().pose, fov_, now, dt, warmUp);
     }
     if (now > viewer::durationOf(tour_)) return std::nullopt;
     return nextView(viewer::poseAt(tour_, tour_.keys.front().time + now), fov_, now, dt, warmUp);
@@ -217,9 +227,9 @@ class Guide {
     return {view_, dt, warmUp};
   }
 
-  const OpenScene& scene_;
   const city::Tour& tour_;
   viewer::Window* window_;
+  Visit* visit_;  ///< of the window
   glm::ivec2 size_;
   double fov_;
   std::optional<double> fps_;
@@ -227,10 +237,9 @@ class Guide {
   bool live_ = false;  ///< views depend on the clock
   std::vector<PlannedView> planned_;
   size_t frame_ = 0;
-  viewer::Navigator navigator_;
   viewer::LiveView* lookedInto_ = nullptr;
-  viewer::Navigator frozenAt_;  ///< where the visitor was when the plan was frozen
-  bool frozenFree_ = false;     ///< whether the visitor walked freely then
+  bool frozenFree_ = false;  ///< whether the visitor walked freely when the plan was frozen
+  bool panelHasMouse_ = false;
   Clock::time_point begin_ = Clock::now();
   double time_ = 0;      ///< of the frame before, seconds since begin_
   double due_ = 0;       ///< moment of the next frame, seconds since begin_
@@ -265,12 +274,30 @@ int walk(const WalkOptions& options, const Surroundings& surroundings) {
   std::string screenProblem;
   const Screen screen = openScreen(options, *knobs, screenProblem);
   city::Diagnostics diagnostics;
-  scenegraph::GroundDetail groundDetail = scenegraph::paintGroundDetail(diagnostics);
+  std::optional<Visit> visit;
+  if (screen.window) visit.emplace(*screen.window, sceneName(options.scene), options.out.empty() ? "out" : options.out);
+  std::future<scenegraph::GroundDetail> painting = std::async(
+      visit ? std::launch::async : std::launch::deferred, [&] { return scenegraph::paintGroundDetail(diagnostics); });
+  // A window says how far it is; one that could not open, or that the visitor left, waits for the reading to end.
+  const auto showLoading = [&] {
+    const auto [stage, fraction] = console.shownProgress();
+    return !visit || visit->showLoading(stage, fraction);
+  };
+  const auto fail = [&](int exitCode) {
+    if (visit) visit->showError(console.errors());
+    return exitCode;
+  };
+  bool stays = true;
+  while (visit && opening.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready)
+    stays = showLoading() && stays;
   std::optional<OpenScene> scene = opening.get();
+  scenegraph::GroundDetail groundDetail = painting.get();
   if (!screen.context) console.error(screenProblem);
-  if (!scene || !screen.context) return scene ? kCouldNot : code;
+  if (!stays) return kDone;
+  if (!scene || !screen.context) return fail(scene ? kCouldNot : code);
+  std::vector<city::Tour> tours;
   std::future<std::optional<city::Tour>> choosing =
-      std::async(std::launch::async, [&] { return chooseTour(options, scene->city, console, code); });
+      std::async(std::launch::async, [&] { return chooseTour(options, scene->city, console, code, tours); });
 
   // The scene graph and the renderer; the city's buffers reach the card with the first frame.
   screen.context->makeCurrent();
@@ -278,9 +305,14 @@ int walk(const WalkOptions& options, const Surroundings& surroundings) {
   drawing.planner = std::make_unique<plan::Planner>(scene->city, scene->knobs);
   drawing.scene = std::make_unique<scenegraph::Scene>(
       scene->city, scene->knobs, diagnostics,
-      [&](std::string_view stage, double fraction) { console.progress(stage, fraction); }, std::move(groundDetail));
+      [&](std::string_view stage, double fraction) {
+        console.progress(stage, fraction);
+        showLoading();
+      },
+      std::move(groundDetail));
+  while (visit && choosing.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) showLoading();
   const std::optional<city::Tour> tour = choosing.get();
-  if (!tour) return code;
+  if (!tour) return fail(code);
   console.progressDone();
   console.report(diagnostics);
   drawing.renderer = std::make_unique<viewer::Renderer>(*screen.context, *drawing.scene,
@@ -288,10 +320,13 @@ int walk(const WalkOptions& options, const Surroundings& surroundings) {
   const std::string rendererName = screen.context->rendererName();
 
   // The walk.
-  Guide guide(options, *scene, *tour, screen.window);
+  if (visit) visit->arrive(*scene, tours, *tour);
+  Guide guide(options, *scene, *tour, screen.window, visit ? &*visit : nullptr);
   const PictureChoice pictures = choosePictures(options, guide.countedFrames());
   std::string pictureProblem;
   size_t written = 0;
+  std::unique_ptr<viewer::Film> film;
+  if (!options.film.empty()) film = viewer::Film::open(options.film, options.size, *options.fps, pictureProblem);
   glm::ivec2 size = options.size;
   viewer::LoopHooks hooks;
   hooks.nextView = [&] {
@@ -307,11 +342,20 @@ int walk(const WalkOptions& options, const Surroundings& surroundings) {
     guide.pause();
   };
   if (screen.window) hooks.windowSize = [&] { return screen.window->size(); };
+  size_t problemsTold = 0;
+  if (visit)
+    hooks.overWindow = [&] {
+      const std::vector<std::string>& problems = drawing.renderer->problems();
+      if (problems.size() > problemsTold) visit->say(problems[problemsTold++]);
+      visit->paint();
+    };
   hooks.keepRecords = !guide.free() || !options.json.empty() || !options.trace.empty();
   hooks.expectedFrames = guide.countedFrames();
   hooks.drawn = [&](size_t frame, const viewer::FrameRecord&) {
     if (guide.countedFrames() > 0)
       console.progress("drawing", static_cast<double>(frame + 1) / static_cast<double>(guide.countedFrames()));
+    if (visit) visit->keepPicture(guide.pose(), [&] { return drawing.renderer->readPicture(); });
+    if (film) pictureProblem = film->add(drawing.renderer->readPicture());
     if (!pictures.has(frame)) return;
     pictureProblem = viewer::writePng(pictures.file(frame), drawing.renderer->readPicture());
     if (pictureProblem.empty()) ++written;
@@ -333,6 +377,10 @@ int walk(const WalkOptions& options, const Surroundings& surroundings) {
   console.progressDone();
 
   // What came of it.
+  if (film && pictureProblem.empty() && !interrupted()) {
+    pictureProblem = film->finish();
+    if (pictureProblem.empty()) console.say("film in " + options.film);
+  }
   finishCache(*scene, console);
   if (live && !live->problem().empty()) console.error(live->problem()), code = kCouldNot;
   for (const std::string& problem : drawing.renderer->problems()) console.error(problem), code = kCouldNot;

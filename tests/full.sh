@@ -24,3 +24,5 @@ done
 echo "ROAM: 10 000 random jumps, published counts and journeys on large fields, long journeys over real terrain"
 "$1/tests/test_terrain" --gtest_also_run_disabled_tests --gtest_filter='DISABLED_*InFull.*' --gtest_brief=1
 "$1/tests/test_app" --gtest_also_run_disabled_tests --gtest_filter='DISABLED_RoamBoundInFull.*' --gtest_brief=1
+echo "Walking: 100 000 random steps in each city"
+"$1/tests/test_viewer" --gtest_also_run_disabled_tests --gtest_filter='*DISABLED_WalkSweepInFull*' --gtest_brief=1

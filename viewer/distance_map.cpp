@@ -6,7 +6,7 @@
 #include <numbers>
 #include <queue>
 
-#include "viewer/surroundings.hpp"
+#include "walking/surroundings.hpp"
 
 namespace vicus::viewer {
 namespace {
@@ -236,8 +236,8 @@ DistanceMap distanceToFootprints(const city::City& city, glm::dvec2 centre, doub
   map.size = glm::ivec2(1 + static_cast<int>(std::ceil(2 * halfSide / cell)));
   map.origin = centre - 0.5 * cell * glm::dvec2(map.size - 1);
   std::vector<uint8_t> occupied(static_cast<size_t>(map.size.x) * static_cast<size_t>(map.size.y), 0);
-  for (const uint32_t i : buildingsWithin(city, centre, halfSide + cell))
-    rasterise(footprintOf(city, city.buildings.instances[i]), map, occupied);
+  for (const uint32_t i : walking::instancesWithin(city.buildings, centre, halfSide + cell))
+    rasterise(walking::footprintOf(city, city.buildings.instances[i]), map, occupied);
   map.distance = distanceTransform(occupied, map.size);
   for (float& d : map.distance) d *= static_cast<float>(cell);
   findEnclosure(map);

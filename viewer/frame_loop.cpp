@@ -20,6 +20,10 @@ constexpr city::Knob kViewerKnobs[] = {
      "like looking through a telescope", "the picture's edges are stretched"},
     {"viewer.vsync", 1, 0, 1, "on/off", "Shows a frame only when the screen begins a new one.",
      "off: faster than the screen, and frames may tear", "on is the most"},
+    {"viewer.monitor", 0, 0, 16, "number", "Monitor that full screen fills; 0 is the one that the window is on.",
+     "0: wherever the window is", "a number without a monitor: F11 says so"},
+    {"viewer.touch", 0, 0, 1, "on/off", "One finger looks, two fingers move, a tap goes there; the pointer stays free.",
+     "off: the mouse looks, without a button", "on: with a mouse, hold the left button to look"},
 };
 
 }  // namespace
@@ -82,6 +86,7 @@ std::vector<FrameRecord> runFrames(const Stage& stage, const LoopHooks& hooks) {
       record.stages.add("overlay", after.lap());
     }
     if (hooks.windowSize) stage.renderer->present(hooks.windowSize());
+    if (hooks.overWindow) hooks.overWindow();
     stage.context->swap();
     record.stages.add("swap", after.lap());
 

@@ -20,7 +20,7 @@
 
 namespace vicus::viewer {
 
-/// Knobs of the viewer: viewer.multisamples, viewer.fov, viewer.vsync.
+/// Knobs of the viewer: viewer.multisamples, viewer.fov, viewer.vsync, viewer.monitor, viewer.touch.
 std::span<const city::Knob> viewerKnobs();
 
 /// The view that is to be drawn next.
@@ -74,6 +74,8 @@ struct LoopHooks {
   std::function<void(const NextView& next, const FrameRecord& record, const city::FramePlan& plan)> overlay;
   /// Pixels of the framebuffer that shows the frame; empty where nothing is shown.
   std::function<glm::ivec2()> windowSize;
+  /// After the frame was copied to the window and before it is shown: paints what is ours over it. May be empty.
+  std::function<void()> overWindow;
   /// After each counted frame, outside its time; may read the picture. `frame` counts from 0. May be empty.
   std::function<void(size_t frame, const FrameRecord& record)> drawn;
   /// False where nobody will ask for the figures: a kiosk runs for weeks.

@@ -110,6 +110,17 @@ std::optional<city::Tour> parsePath(std::string_view text, const std::string& fi
   return std::nullopt;
 }
 
+std::string pathText(const city::Tour& tour) {
+  json keys = json::array();
+  for (const city::Tour::Key& key : tour.keys)
+    keys.push_back({{"time", key.time},
+                    {"position", {key.position.x, key.position.y, key.position.z}},
+                    {"heading", key.heading * 180 / pi},
+                    {"pitch", std::clamp(key.pitch * 180 / pi, -90.0, 90.0)}});
+  const json root{{"name", tour.name}, {"jumps", tour.jumps}, {"keys", std::move(keys)}};
+  return root.dump(1) + "\n";
+}
+
 std::optional<city::Tour> readPath(const std::string& file, city::Diagnostics& diagnostics) {
   std::error_code ignored;
   std::ifstream in(file, std::ios::binary);

@@ -26,6 +26,10 @@ namespace vicus::viewer {
 /// Fields with other names get a warning. `file` is only named in messages.
 std::optional<city::Tour> parsePath(std::string_view text, const std::string& file, city::Diagnostics& diagnostics);
 
+/// The tour as such a text; `parsePath` reads the same tour from it, angles to the last bits of a conversion to
+/// degrees.
+std::string pathText(const city::Tour& tour);
+
 /// The same from a file.
 std::optional<city::Tour> readPath(const std::string& file, city::Diagnostics& diagnostics);
 

@@ -9,7 +9,7 @@
 
 namespace vicus::viewer {
 
-std::vector<uint8_t> pngBytes(const Picture& picture, std::string& error) {
+std::vector<uint8_t> pngBytes(const Picture& picture, std::string& error, PictureNotes notes) {
   const size_t needed =
       3 * static_cast<size_t>(std::max(picture.width, 0)) * static_cast<size_t>(std::max(picture.height, 0));
   if (needed == 0 || picture.rgb.size() != needed) {
@@ -26,6 +26,8 @@ std::vector<uint8_t> pngBytes(const Picture& picture, std::string& error) {
   spec.attribute("oiio:ColorSpace", "sRGB");
   // Tuned on town views: level 3 takes a third of the default's time and a tenth more space.
   spec.attribute("png:compressionLevel", 3);
+  for (const auto& [name, text] : notes)  // OpenImageIO has names of its own for two of them
+    spec.attribute(name == "Title" ? "DocumentName" : name == "Description" ? "ImageDescription" : name, text);
   std::vector<unsigned char> bytes;
   OIIO::Filesystem::IOVecOutput memory(bytes);
   if (out->set_ioproxy(&memory) && out->open("picture.png", spec) &&
@@ -35,9 +37,9 @@ std::vector<uint8_t> pngBytes(const Picture& picture, std::string& error) {
   return {};
 }
 
-std::string writePng(const std::filesystem::path& path, const Picture& picture) {
+std::string writePng(const std::filesystem::path& path, const Picture& picture, PictureNotes notes) {
   std::string problem;
-  const std::vector<uint8_t> bytes = pngBytes(picture, problem);
+  const std::vector<uint8_t> bytes = pngBytes(picture, problem, notes);
   if (!problem.empty()) return path.string() + ": not written, " + problem;
   return writeWhole(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }

@@ -8,7 +8,7 @@
 #include <queue>
 
 #include "viewer/distance_map.hpp"
-#include "viewer/surroundings.hpp"
+#include "walking/surroundings.hpp"
 
 namespace vicus::viewer {
 namespace {
@@ -101,11 +101,11 @@ std::vector<WayPoint> resample(const std::vector<WayPoint>& way, double spacing)
 /// to a wall (or nearer than it is, where it starts nearer). Corners become round.
 void relax(const City& city, std::vector<WayPoint>& way, int rounds, double keepClear) {
   std::vector<double> room(way.size());
-  for (size_t i = 0; i < way.size(); ++i) room[i] = clearance(city, way[i].at, keepClear);
+  for (size_t i = 0; i < way.size(); ++i) room[i] = walking::clearance(city, way[i].at, keepClear);
   for (int round = 0; round < rounds; ++round)
     for (size_t i = 1; i + 1 < way.size(); ++i) {
       const glm::dvec2 tight = 0.5 * way[i].at + 0.25 * (way[i - 1].at + way[i + 1].at);
-      const double there = clearance(city, tight, keepClear);
+      const double there = walking::clearance(city, tight, keepClear);
       if (there < room[i]) continue;
       way[i].at = tight, room[i] = there;
     }
@@ -127,7 +127,8 @@ std::vector<Tour::Key> walkAlong(const City& city, std::vector<WayPoint> way) {
   std::vector<Tour::Key> keys(way.size());
   for (size_t i = 0; i < way.size(); ++i) {
     keys[i].time = static_cast<double>(i) * spacing / kWalkingSpeed;
-    keys[i].position = glm::dvec3(way[i].at, std::max(groundAt(city, way[i].at), way[i].deck) + kEyeHeight);
+    keys[i].position =
+        glm::dvec3(way[i].at, std::max(walking::groundAt(city, way[i].at), way[i].deck) + walking::kEyeHeight);
   }
 
   // Look at the point ahead; near the end keep looking the same way.
@@ -204,7 +205,7 @@ struct StreetMap {
     const double length = glm::distance(a, b);
     const int steps = 1 + static_cast<int>(length);
     for (int s = 0; s <= steps; ++s)
-      if (clearance(city, glm::mix(a, b, static_cast<double>(s) / steps), 1) < 0.5) return false;
+      if (walking::clearance(city, glm::mix(a, b, static_cast<double>(s) / steps), 1) < 0.5) return false;
     return true;
   }
 };
@@ -263,7 +264,7 @@ void follow(const StreetMap& map, const StreetWays& ways, uint32_t to, std::vect
 std::vector<WayPoint> streetWay(const City& city, const city::StreetGraph& streets) {
   constexpr double kReach = 420;  // metres (priced) from the middle to either end: some ten minutes in all
   constexpr size_t kCandidates = 40;
-  const glm::dvec2 middle = densestPoint(city);
+  const glm::dvec2 middle = walking::densestPoint(city);
   const StreetMap map(city, streets, middle, 2 * kReach);
   // The crossing nearest to the middle from which one gets somewhere.
   std::vector<uint32_t> candidates;
@@ -311,7 +312,7 @@ std::vector<WayPoint> ridgeStreet(const City& city) {
   constexpr double kCell = 1;          // metres
   constexpr double kKeepClear = 1.5;   // metres on the map, whose walls are up to 0.7 m off: half a narrow lane
   if (city.buildings.empty()) return {};
-  const glm::dvec2 middle = densestPoint(city);
+  const glm::dvec2 middle = walking::densestPoint(city);
   // Small scenes get a window that fits them, so that the walk stays among what there is.
   const city::Aabbf& all = city.buildings.nodes[0].bounds;
   const glm::dvec2 min(glm::vec2(all.min)), max(glm::vec2(all.max));
@@ -326,7 +327,7 @@ std::vector<WayPoint> ridgeStreet(const City& city) {
 
 /// A straight walk of 60 m for scenes with no building and no street, through the middle of what there is.
 std::vector<WayPoint> openWay(const City& city) {
-  const glm::dvec2 middle = densestPoint(city);
+  const glm::dvec2 middle = walking::densestPoint(city);
   return {{middle - glm::dvec2(30, 0), -kInfinity}, {middle + glm::dvec2(30, 0), -kInfinity}};
 }
 
@@ -356,7 +357,7 @@ Tour makeFlyover(const City& city) {
   constexpr double kSeconds = 90;
   Tour tour;
   tour.name = "flyover";
-  const glm::dvec2 middle = densestPoint(city);
+  const glm::dvec2 middle = walking::densestPoint(city);
   const glm::dvec3 size = city.extent.empty() ? glm::dvec3(0) : city.extent.size();
   const double radius = std::clamp(0.55 * std::max(size.x, size.y), kSmallestRadius, kLargestRadius);
   const double lowest = 0.03 * radius + 15, highest = 0.18 * radius + 10;
@@ -376,7 +377,7 @@ Tour makeFlyover(const City& city) {
   constexpr double kSteepest = 0.6;  // metres of height for each metre of way
   const double look = std::max(0.08 * radius, 15.0);
   std::vector<double> height(plan.size());
-  for (size_t k = 0; k < plan.size(); ++k) height[k] = highestWithin(city, plan[k], look) + above[k];
+  for (size_t k = 0; k < plan.size(); ++k) height[k] = walking::highestWithin(city, plan[k], look) + above[k];
   for (size_t k = 1; k < plan.size(); ++k)
     height[k] = std::max(height[k], height[k - 1] - kSteepest * glm::distance(plan[k], plan[k - 1]));
   for (size_t k = plan.size() - 1; k > 0; --k)
@@ -387,7 +388,7 @@ Tour makeFlyover(const City& city) {
     key.position = glm::dvec3(plan[k], height[k]);
     tour.keys.push_back(key);
   }
-  const glm::dvec3 target(middle, groundAt(city, middle));
+  const glm::dvec3 target(middle, walking::groundAt(city, middle));
   double last = 0;
   for (Tour::Key& key : tour.keys) {
     const glm::dvec3 to = target - key.position;
@@ -404,11 +405,11 @@ Tour makeTurn(const City& city, const Tour& street) {
   Tour tour;
   tour.name = "turn";
   // Where the walk has the most room within ten metres: a market place or a crossing rather than a lane.
-  glm::dvec3 place(densestPoint(city), 0);
-  place.z = groundAt(city, glm::dvec2(place)) + kEyeHeight;
+  glm::dvec3 place(walking::densestPoint(city), 0);
+  place.z = walking::groundAt(city, glm::dvec2(place)) + walking::kEyeHeight;
   double room = -1;
   for (size_t k = 0; k < street.keys.size(); k += 4) {
-    const double there = clearance(city, glm::dvec2(street.keys[k].position), 10);
+    const double there = walking::clearance(city, glm::dvec2(street.keys[k].position), 10);
     if (there > room) room = there, place = street.keys[k].position;
   }
   for (int k = 0; k < kKeys; ++k) {
@@ -441,14 +442,14 @@ std::optional<WayPoint> placeOutdoors(const City& city, city::Random& random) {
     } else {
       return std::nullopt;
     }
-    if (clearance(city, place.at, kRoom) >= kRoom) return place;
+    if (walking::clearance(city, place.at, kRoom) >= kRoom) return place;
   }
   return std::nullopt;
 }
 
 city::ViewPose standAt(const City& city, const WayPoint& place, city::Random& random) {
   city::ViewPose pose;
-  pose.eye = glm::dvec3(place.at, std::max(groundAt(city, place.at), place.deck) + kEyeHeight);
+  pose.eye = glm::dvec3(place.at, std::max(walking::groundAt(city, place.at), place.deck) + walking::kEyeHeight);
   pose.heading = random.uniform(-pi, pi);
   pose.pitch = random.uniform(-0.1, 0.2);
   return pose;
@@ -456,12 +457,12 @@ city::ViewPose standAt(const City& city, const WayPoint& place, city::Random& ra
 
 /// Above a place of the town, looking down at something between steeply and nearly level.
 city::ViewPose hoverOver(const City& city, city::Random& random) {
-  glm::dvec2 at = densestPoint(city);
+  glm::dvec2 at = walking::densestPoint(city);
   if (!city.buildings.empty())
     at = glm::dvec2(city.buildings.instances[random.below(static_cast<uint32_t>(city.buildings.size()))].position);
   at += glm::dvec2(random.uniform(-60, 60), random.uniform(-60, 60));
   city::ViewPose pose;
-  pose.eye = glm::dvec3(at, highestWithin(city, at, 20) + random.uniform(10, 200));
+  pose.eye = glm::dvec3(at, walking::highestWithin(city, at, 20) + random.uniform(10, 200));
   pose.heading = random.uniform(-pi, pi);
   pose.pitch = -random.uniform(0.1, 1.1);
   return pose;
@@ -469,7 +470,7 @@ city::ViewPose hoverOver(const City& city, city::Random& random) {
 
 city::ViewPose standSomewhere(const City& city, city::Random& random) {
   const auto place = placeOutdoors(city, random);
-  return standAt(city, place ? *place : WayPoint{densestPoint(city), -kInfinity}, random);
+  return standAt(city, place ? *place : WayPoint{walking::densestPoint(city), -kInfinity}, random);
 }
 
 Tour makeTeleport(const City& city) {

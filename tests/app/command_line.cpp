@@ -276,6 +276,29 @@ TEST_F(CommandLine, SingleViewsAreDrawn) {
   EXPECT_GT(viewer::compare(*wide, *narrow).share, 0.1);
 }
 
+TEST_F(CommandLine, ATourFilmedTwiceIsTheSame) {
+  const std::string path = write("way.json", R"({"keys": [
+      {"time": 0, "position": [6, -20, 1.65], "heading": 90}, {"time": 0.5, "position": [8, -19, 1.65], "heading": 100},
+      {"time": 1, "position": [9, -17, 1.65], "heading": 80}]})");
+  const auto film = [&](const std::string& out) {
+    return vicus({"film", hamlet(), "--path", path, "--fps", "8", "--size", "64x36", "-o", file(out)});
+  };
+  const int code = film("a.mp4");
+  if (code == kCouldNot && err_.str().find("EGL") != std::string::npos) GTEST_SKIP() << err_.str();
+  ASSERT_EQ(code, kDone) << err_.str();
+  EXPECT_THAT(err_.str(), HasSubstr("film in " + file("a.mp4")));
+  ASSERT_EQ(film("b.mp4"), kDone) << err_.str();
+  EXPECT_GT(read("a.mp4").size(), 1000u);
+  EXPECT_EQ(read("a.mp4"), read("b.mp4"));
+  for (const char* folder : {"c", "d"}) ASSERT_EQ(film(folder), kDone) << err_.str();
+  for (int k = 0; k < 9; ++k) {
+    const std::string name = "/frame_0000" + std::to_string(k) + ".png";
+    EXPECT_GT(read("c" + name).size(), 100u) << name;
+    EXPECT_EQ(read("c" + name), read("d" + name)) << name;
+  }
+  EXPECT_EQ(vicus({"film", hamlet(), "--tour", "street"}), kWrongUsage) << "no file is named";
+}
+
 TEST_F(CommandLine, AFolderThatCannotBeMadeIsTold) {
   write("taken", "a file, not a folder");
   const int code = vicus({"walk", hamlet(), "--headless", "--frames", "3", "--size", "16x9", "--out", file("taken")});

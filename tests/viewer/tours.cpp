@@ -9,7 +9,7 @@
 #include "assets/norvic/norvic.hpp"
 #include "small_cities.hpp"
 #include "viewer/distance_map.hpp"
-#include "viewer/surroundings.hpp"
+#include "walking/surroundings.hpp"
 
 namespace vicus::viewer {
 namespace {
@@ -30,8 +30,8 @@ void expectWalkable(const City& city, const Tour& tour) {
   for (double t = 0; t <= durationOf(tour); t += step) {
     const city::ViewPose pose = poseAt(tour, start + t);
     const glm::dvec2 at(pose.eye);
-    ASSERT_GT(clearance(city, at, 2), 0.4) << tour.name << " at " << t << " s runs into a building";
-    const double above = pose.eye.z - groundAt(city, at);
+    ASSERT_GT(walking::clearance(city, at, 2), 0.4) << tour.name << " at " << t << " s runs into a building";
+    const double above = pose.eye.z - walking::groundAt(city, at);
     ASSERT_GT(above, 1.4) << tour.name << " at " << t << " s";
     ASSERT_LT(above, 2.0) << tour.name << " at " << t << " s";
     ASSERT_LT(glm::distance(pose.eye, last.eye), 5 * step) << tour.name << " jumps at " << t << " s";
@@ -161,7 +161,7 @@ TEST(MakeTours, StreetKeepsToTheTown) {
   const City town = test::gridTown();
   const Tour street = makeTours(town)[0];
   size_t among = 0;
-  for (const Tour::Key& key : street.keys) among += clearance(town, glm::dvec2(key.position), 12) < 9.5;
+  for (const Tour::Key& key : street.keys) among += walking::clearance(town, glm::dvec2(key.position), 12) < 9.5;
   EXPECT_GT(among, street.keys.size() * 3 / 4);
 }
 
@@ -224,7 +224,7 @@ TEST(MakeTours, BridgesAreWalkedOnTheirDecks) {
   const Tour street = makeTours(city)[0];
   bool crossed = false;
   for (const Tour::Key& key : street.keys) {
-    EXPECT_NEAR(key.position.z, kEyeHeight, 0.05) << key.position.x;
+    EXPECT_NEAR(key.position.z, walking::kEyeHeight, 0.05) << key.position.x;
     crossed = crossed || std::abs(key.position.x - 50) < 2;
   }
   EXPECT_TRUE(crossed);
@@ -237,14 +237,14 @@ TEST(MakeTours, FlyoverClearsEverything) {
   const Tour flyover = makeTours(city)[1];
   for (double t = 0; t <= durationOf(flyover); t += 0.25) {
     const glm::dvec3 eye = poseAt(flyover, t).eye;
-    EXPECT_GT(eye.z, highestWithin(city, glm::dvec2(eye), 2) + 5) << t;
+    EXPECT_GT(eye.z, walking::highestWithin(city, glm::dvec2(eye), 2) + 5) << t;
   }
 }
 
 TEST(MakeTours, TurnGoesRoundOnTheSpot) {
   const City town = test::gridTown();
   const Tour turn = makeTours(town)[2];
-  EXPECT_GT(clearance(town, glm::dvec2(turn.keys[0].position), 5), 1);
+  EXPECT_GT(walking::clearance(town, glm::dvec2(turn.keys[0].position), 5), 1);
   double turned = 0;
   for (size_t k = 1; k < turn.keys.size(); ++k) {
     EXPECT_EQ(turn.keys[k].position, turn.keys[0].position);
@@ -259,7 +259,8 @@ TEST(MakeTours, TeleportJumpsToPlacesOutdoors) {
   EXPECT_TRUE(teleport.jumps);
   for (const Tour::Key& key : teleport.keys) {
     const glm::dvec2 at(key.position);
-    EXPECT_TRUE(clearance(town, at, 2) > 0.7 || key.position.z > 6) << at.x << ", " << at.y << ", " << key.position.z;
+    EXPECT_TRUE(walking::clearance(town, at, 2) > 0.7 || key.position.z > 6)
+        << at.x << ", " << at.y << ", " << key.position.z;
   }
 }
 
@@ -343,10 +344,10 @@ TEST(DistanceTransform, EmptyAndSingle) {
 
 TEST(RidgeWay, KeepsClearAndFindsNoneWhereAllIsBuilt) {
   const City town = test::gridTown();
-  const DistanceMap map = distanceToFootprints(town, densestPoint(town), 80, 1);
+  const DistanceMap map = distanceToFootprints(town, walking::densestPoint(town), 80, 1);
   const std::vector<glm::dvec2> way = ridgeWay(map, 1.2);
   ASSERT_GT(way.size(), 50u);
-  for (const glm::dvec2& p : way) EXPECT_GT(clearance(town, p, 3), 0.4);
+  for (const glm::dvec2& p : way) EXPECT_GT(walking::clearance(town, p, 3), 0.4);
   DistanceMap full = map;
   std::fill(full.distance.begin(), full.distance.end(), 0.f);
   EXPECT_TRUE(ridgeWay(full, 1.2).empty());
@@ -355,11 +356,11 @@ TEST(RidgeWay, KeepsClearAndFindsNoneWhereAllIsBuilt) {
 TEST(Clearance, SignedDistanceToATurnedHouse) {
   // 8 × 10 m, turned by a right angle: 10 across, 8 deep.
   const City city = test::cityOf({{100, 50}}, 0, static_cast<float>(pi / 2));
-  EXPECT_NEAR(clearance(city, {100, 50}, 20), -4, 1e-5);
-  EXPECT_NEAR(clearance(city, {108, 50}, 20), 3, 1e-5);
-  EXPECT_NEAR(clearance(city, {100, 59}, 20), 5, 1e-5);
-  EXPECT_EQ(clearance(city, {300, 50}, 20), 20);
-  EXPECT_EQ(clearance({}, {0, 0}, 20), 20);
+  EXPECT_NEAR(walking::clearance(city, {100, 50}, 20), -4, 1e-5);
+  EXPECT_NEAR(walking::clearance(city, {108, 50}, 20), 3, 1e-5);
+  EXPECT_NEAR(walking::clearance(city, {100, 59}, 20), 5, 1e-5);
+  EXPECT_EQ(walking::clearance(city, {300, 50}, 20), 20);
+  EXPECT_EQ(walking::clearance({}, {0, 0}, 20), 20);
 }
 
 TEST(Clearance, HolesAreOutdoors) {
@@ -371,25 +372,25 @@ TEST(Clearance, HolesAreOutdoors) {
   city::CityParts parts;
   parts.buildings.resize(1);
   city::finishCity(city, std::move(parts));
-  EXPECT_NEAR(clearance(city, {0, 0}, 9), 4, 1e-6);
-  EXPECT_NEAR(clearance(city, {7, 0}, 9), -3, 1e-6);
+  EXPECT_NEAR(walking::clearance(city, {0, 0}, 9), 4, 1e-6);
+  EXPECT_NEAR(walking::clearance(city, {7, 0}, 9), -3, 1e-6);
 }
 
 TEST(GroundAt, TerrainThenWaterThenBuildings) {
   City city = test::cityOf({{0, 0}}, 12);
-  EXPECT_NEAR(groundAt(city, {5, 5}), 12, 1e-9);
-  EXPECT_NEAR(groundAt(city, {50000, 5}), 12, 1e-9) << "far from all buildings the nearest one counts";
-  EXPECT_EQ(groundAt(city, {std::nan(""), 0}), 0);
-  EXPECT_EQ(groundAt({}, {3, 4}), 0);
+  EXPECT_NEAR(walking::groundAt(city, {5, 5}), 12, 1e-9);
+  EXPECT_NEAR(walking::groundAt(city, {50000, 5}), 12, 1e-9) << "far from all buildings the nearest one counts";
+  EXPECT_EQ(walking::groundAt(city, {std::nan(""), 0}), 0);
+  EXPECT_EQ(walking::groundAt({}, {3, 4}), 0);
   test::setTerrain(city, test::terrain(11, 10, [](double, double) { return 3.0; }));
-  EXPECT_NEAR(groundAt(city, {5, 5}), 3, 1e-9);
+  EXPECT_NEAR(walking::groundAt(city, {5, 5}), 3, 1e-9);
   city::WaterBody pond;
   pond.level = 4;
   pond.points = {{0, 0}, {20, 0}, {0, 20}};
   pond.indices = {0, 1, 2};
   city.water = {pond};
-  EXPECT_NEAR(groundAt(city, {5, 5}), 4, 1e-9);
-  EXPECT_NEAR(groundAt(city, {-5, -5}), 3, 1e-9);
+  EXPECT_NEAR(walking::groundAt(city, {5, 5}), 4, 1e-9);
+  EXPECT_NEAR(walking::groundAt(city, {-5, -5}), 3, 1e-9);
 }
 
 }  // namespace

@@ -1,25 +1,33 @@
-#include "viewer/surroundings.hpp"
+#include "walking/surroundings.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace vicus::viewer {
-namespace {
-
+namespace vicus::walking {
 using city::City;
+
+bool touchesSquare(const city::Aabbf& box, glm::dvec2 centre, double halfSide) {
+  return !box.empty() && static_cast<double>(box.min.x) <= centre.x + halfSide &&
+         static_cast<double>(box.max.x) >= centre.x - halfSide &&
+         static_cast<double>(box.min.y) <= centre.y + halfSide && static_cast<double>(box.max.y) >= centre.y - halfSide;
+}
+
+bool triangleCovers(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 point) {
+  const auto side = [&](glm::dvec2 u, glm::dvec2 v) {
+    return (v.x - u.x) * (point.y - u.y) - (v.y - u.y) * (point.x - u.x);
+  };
+  const double ab = side(a, b), bc = side(b, c), ca = side(c, a);
+  return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
+}
+
+namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 glm::dvec2 turned(glm::dvec2 v, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   return {c * v.x - s * v.y, s * v.x + c * v.y};
-}
-
-bool touchesSquare(const city::Aabbf& box, glm::dvec2 centre, double halfSide) {
-  return !box.empty() && static_cast<double>(box.min.x) <= centre.x + halfSide &&
-         static_cast<double>(box.max.x) >= centre.x - halfSide &&
-         static_cast<double>(box.min.y) <= centre.y + halfSide && static_cast<double>(box.max.y) >= centre.y - halfSide;
 }
 
 /// Calls `visit(index)` for every instance of the set whose bounds touch the square, in ascending order.
@@ -56,12 +64,6 @@ double signedDistance(const std::vector<std::vector<glm::dvec2>>& rings, glm::dv
       if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) inside = !inside;
     }
   return inside ? -nearest : nearest;
-}
-
-bool triangleCovers(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 p) {
-  const auto side = [&](glm::dvec2 u, glm::dvec2 v) { return (v.x - u.x) * (p.y - u.y) - (v.y - u.y) * (p.x - u.x); };
-  const double ab = side(a, b), bc = side(b, c), ca = side(c, a);
-  return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
 }
 
 /// Level of the water that covers the point; −infinity on dry land.
@@ -113,9 +115,9 @@ std::vector<std::vector<glm::dvec2>> footprintOf(const City& city, const city::I
   return rings;
 }
 
-std::vector<uint32_t> buildingsWithin(const City& city, glm::dvec2 centre, double halfSide) {
+std::vector<uint32_t> instancesWithin(const city::InstanceSet& set, glm::dvec2 centre, double halfSide) {
   std::vector<uint32_t> found;
-  forEachWithin(city.buildings, centre, halfSide, [&](uint32_t i) { found.push_back(i); });
+  forEachWithin(set, centre, halfSide, [&](uint32_t i) { found.push_back(i); });
   return found;
 }
 
@@ -127,13 +129,15 @@ double clearance(const City& city, glm::dvec2 point, double reach) {
   return nearest;
 }
 
-double groundAt(const City& city, glm::dvec2 point) {
+double dryGroundAt(const City& city, glm::dvec2 point) {
   if (!std::isfinite(point.x) || !std::isfinite(point.y)) return 0;
-  double ground = 0;
-  if (const auto terrain = city.terrain ? city.terrain->heightAt(point.x, point.y) : std::nullopt)
-    ground = *terrain;
-  else
-    ground = groundOfBuildings(city, point);
+  const auto terrain = city.terrain ? city.terrain->heightAt(point.x, point.y) : std::nullopt;
+  return terrain ? *terrain : groundOfBuildings(city, point);
+}
+
+double groundAt(const City& city, glm::dvec2 point) {
+  const double ground = dryGroundAt(city, point);
+  if (!std::isfinite(point.x) || !std::isfinite(point.y)) return ground;
   return std::max(ground, waterLevelAt(city, point));
 }
 
@@ -197,4 +201,4 @@ glm::dvec2 densestPoint(const City& city) {
   return sum / static_cast<double>(count);
 }
 
-}  // namespace vicus::viewer
+}  // namespace vicus::walking

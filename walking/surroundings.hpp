@@ -6,7 +6,7 @@
 
 #include "city/city.hpp"
 
-namespace vicus::viewer {
+namespace vicus::walking {
 
 /// Height of a visitor's eye above the ground, metres (the mean of adults' eye heights, 1.5 to 1.75 m).
 constexpr double kEyeHeight = 1.65;
@@ -20,6 +20,9 @@ double clearance(const city::City& city, glm::dvec2 point, double reach);
 /// nearest one; 0 in a city of neither. A position that is not finite gives 0.
 double groundAt(const city::City& city, glm::dvec2 point);
 
+/// The same without water: the bed of a river.
+double dryGroundAt(const city::City& city, glm::dvec2 point);
+
 /// The highest point of ground, buildings, trees and monuments in a square about `centre`, metres above the city's
 /// origin; `groundAt` the centre where there is nothing else.
 double highestWithin(const city::City& city, glm::dvec2 centre, double halfSide);
@@ -32,7 +35,13 @@ glm::dvec2 densestPoint(const city::City& city);
 /// Footprint of a building in the city's frame: outer ring, then holes; the corners of its bounds where it has none.
 std::vector<std::vector<glm::dvec2>> footprintOf(const city::City& city, const city::Instance& building);
 
-/// Indices into City::buildings of those whose bounds touch a square about `centre`, ascending.
-std::vector<uint32_t> buildingsWithin(const city::City& city, glm::dvec2 centre, double halfSide);
+/// Indices of the instances whose bounds touch a square about `centre`, ascending.
+std::vector<uint32_t> instancesWithin(const city::InstanceSet& set, glm::dvec2 centre, double halfSide);
 
-}  // namespace vicus::viewer
+/// Whether a box touches a square about `centre` on the plan.
+bool touchesSquare(const city::Aabbf& box, glm::dvec2 centre, double halfSide);
+
+/// Whether a triangle of the plan covers a point, its edges included, whichever way round it is.
+bool triangleCovers(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 point);
+
+}  // namespace vicus::walking
