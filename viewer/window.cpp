@@ -52,7 +52,7 @@ struct Window::Impl {
   Gamepad pad;                                ///< at the last poll
   bool buttonWasDown = false;
   glm::dvec2 pressedAt{0};
-  double pressedTime = 0, dragged = 0;
+  double dragged = 0;      ///< screen units since the button was pressed
   glm::ivec4 windowed{0};  ///< place and size before full screen
 
   bool down(std::initializer_list<int> keys) const {
@@ -85,12 +85,12 @@ struct Window::Impl {
   }
   /// The pointer where it is free: where it is, and whether the button was pressed and let go on the spot.
   void readPointer(Input& input, glm::dvec2 mouse) {
-    constexpr double kTapSeconds = 0.4, kTapPixels = 8;
-    const bool isDown = glfwGetMouseButton(window, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS;
-    if (isDown && !buttonWasDown) pressedAt = mouse, pressedTime = glfwGetTime(), dragged = 0;
+    constexpr double kTapPixels = 8;
+    const bool isDown = input.leftButton;
+    if (isDown && !buttonWasDown) pressedAt = mouse, dragged = 0;
     if (isDown) dragged = std::max(dragged, glm::distance(mouse, pressedAt));
     const bool free = mouseFree || touch;
-    input.tap = free && !isDown && buttonWasDown && dragged < kTapPixels && glfwGetTime() - pressedTime < kTapSeconds;
+    input.tap = free && !isDown && buttonWasDown && dragged < kTapPixels;
     buttonWasDown = isDown;
     // Positions come in screen coordinates, which may be larger than pixels.
     glm::ivec2 screen(1), pixels(1);
@@ -127,8 +127,9 @@ std::unique_ptr<Window> Window::open(const Options& options, std::string& error)
   glfwSetScrollCallback(window->impl_->window, [](GLFWwindow* w, double right, double up) {
     static_cast<Impl*>(glfwGetWindowUserPointer(w))->wheel += glm::dvec2(right, up);
   });
-  // A key pressed and let go between two slow frames still counts for one.
+  // A key or button pressed and let go between two slow frames still counts for one.
   glfwSetInputMode(window->impl_->window, GLFW_STICKY_KEYS, GLFW_TRUE);
+  glfwSetInputMode(window->impl_->window, GLFW_STICKY_MOUSE_BUTTONS, GLFW_TRUE);
   return window;
 }
 
