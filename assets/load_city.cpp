@@ -1,13 +1,15 @@
 #include "assets/load_city.hpp"
 
-#include <gdal_priv.h>
-
+#include <algorithm>
+#include <atomic>
 #include <bit>
 #include <charconv>
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <memory>
+#include <mutex>
 #include <sstream>
 
 #include "assets/cache/blob_cache.hpp"
@@ -16,11 +18,11 @@
 #include "assets/cache/hash.hpp"
 #include "assets/import/gdal_messages.hpp"
 #include "assets/import/import_city.hpp"
+#include "assets/import/parallel.hpp"
 #include "assets/import/projection.hpp"
-#include "assets/import/read_cityjson.hpp"
-#include "assets/import/read_elevation.hpp"
-#include "assets/import/read_footprints.hpp"
+#include "assets/import/read_file.hpp"
 #include "assets/norvic/norvic.hpp"
+#include "assets/scene/apply_scene.hpp"
 
 namespace vicus::assets {
 namespace {
@@ -54,116 +56,122 @@ LoadResult loadBuiltIn(const std::string& input, const LoadOptions& options) {
   return result;
 }
 
-struct CloseDataset {
-  void operator()(GDALDataset* d) const { GDALClose(d); }
-};
-using Dataset = std::unique_ptr<GDALDataset, CloseDataset>;
-
-/// The files of one city while they are read.
-struct Input {
-  const LoadOptions& options;
-  city::Diagnostics& diagnostics;
-  GdalMessages messages;
-  std::string crs;  ///< WKT of what the user says of files without one
-  std::vector<Source> sources;
-  std::vector<Dataset> datasets;  ///< keeps rasters open
-  std::vector<ElevationRaster> rasters;
-};
-
-bool endsWithJson(const std::string& file) {
-  return file.ends_with(".json") || file.ends_with(".JSON") || file.ends_with(".cityjson");
+bool isDescription(const std::string& file) {
+  return file.ends_with(".toml") || file.ends_with(".TOML");
 }
 
-/// Reads a whole file; nothing, with an error, where it cannot be read.
-std::optional<std::string> readText(const std::string& file, city::Diagnostics& diagnostics) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (stream) text << stream.rdbuf();
-  if (!stream) {
-    diagnostics.error(file, "", "cannot be read");
-    return std::nullopt;
-  }
-  return std::move(text).str();
-}
-
-void addRaster(Input& input, Dataset dataset, const std::string& file) {
-  if (const std::string why = whyNoElevation(*dataset); !why.empty()) {
-    input.diagnostics.error(file, "", "cannot be terrain: " + why);
-    return;
-  }
-  ElevationRaster raster{dataset.get(), file, {}};
-  const char* wkt = dataset->GetProjectionRef();
-  if (wkt && *wkt) raster.crs = crsFromText(wkt);
-  if (raster.crs.empty()) raster.crs = input.crs;
-  if (raster.crs.empty()) {
-    input.diagnostics.error(file, "", "states no CRS: give one with --crs");
-    return;
-  }
-  input.rasters.push_back(std::move(raster));
-  input.datasets.push_back(std::move(dataset));
-}
-
-void readFile(Input& input, const std::string& file, bool elevationOnly) {
+/// Where a file of a scene lies: relative to the description's folder, else to the folder of data; as written where it
+/// is in neither, so that the message about it names what was written.
+std::string resolve(const SceneDescription& scene, const LoadOptions& options, const std::string& file) {
+  if (scene.file.empty() || fs::path(file).is_absolute()) return file;
   std::error_code error;
-  if (!fs::exists(file, error)) {
-    input.diagnostics.error(file, "", "there is no such file");
-    return;
-  }
-  if (!elevationOnly && endsWithJson(file) && fs::is_regular_file(file, error)) {
-    const auto text = readText(file, input.diagnostics);
-    if (!text) return;
-    if (isCityJson(*text) || file.ends_with(".city.json") || file.ends_with(".cityjson")) {
-      Source source = readCityJson(*text, file, input.options.heightColumn, input.diagnostics);
-      if (source.crs.empty()) source.crs = input.crs;
-      input.sources.push_back(std::move(source));
-      return;
-    }
-  }
-  Dataset dataset(
-      GDALDataset::Open(file.c_str(), GDAL_OF_READONLY | GDAL_OF_RASTER | (elevationOnly ? 0 : GDAL_OF_VECTOR)));
-  if (!dataset) {
-    const std::string why = input.messages.take();
-    input.diagnostics.error(
-        file, "",
-        elevationOnly ? "cannot be read as terrain" + (why.empty() ? "" : ": " + why)
-                      : "is neither footprints nor CityJSON nor a terrain raster" + (why.empty() ? "" : ": " + why));
-    return;
-  }
-  if (!elevationOnly && dataset->GetLayerCount() > 0) {
-    Source source = readFootprints(*dataset, file, {input.options.heightColumn, input.options.groundColumn},
-                                   input.messages, input.diagnostics);
-    if (source.crs.empty()) source.crs = input.crs;
-    if (source.footprints.empty()) input.diagnostics.error(file, "", "holds no building footprints");
-    input.sources.push_back(std::move(source));
-    if (dataset->GetRasterCount() == 0) return;
-  }
-  addRaster(input, std::move(dataset), file);
+  const fs::path beside = fs::path(scene.folder) / file;
+  if (fs::exists(beside, error)) return beside.string();
+  const fs::path elsewhere = fs::path(options.dataFolder) / file;
+  if (!options.dataFolder.empty() && fs::exists(elsewhere, error)) return elsewhere.string();
+  return beside.string();
 }
 
-LoadResult loadFiles(std::span<const std::string> inputs, const LoadOptions& options) {
-  LoadResult result;
-  Input input{options, result.diagnostics, {}, {}, {}, {}, {}};
-  if (!options.crs.empty()) {
-    input.crs = crsFromText(options.crs);
-    if (input.crs.empty()) result.diagnostics.error("--crs", "", "the CRS " + options.crs + " is not known");
+/// What the command line names, as a scene description would.
+SceneDescription sceneOfArguments(std::span<const std::string> inputs) {
+  SceneDescription scene;
+  scene.name = inputs.empty() ? "" : fs::path(inputs[0]).stem().string();
+  for (const std::string& input : inputs) scene.sources.emplace_back().file = input;
+  return scene;
+}
+
+/// The description that the user names, or one made from the files that she names, its paths resolved. Nothing, with
+/// errors, where it cannot be read.
+std::optional<SceneDescription> sceneOf(std::span<const std::string> inputs, const LoadOptions& options,
+                                        city::Diagnostics& diagnostics) {
+  std::optional<SceneDescription> scene;
+  const auto description = std::find_if(inputs.begin(), inputs.end(), isDescription);
+  if (description == inputs.end()) {
+    scene = sceneOfArguments(inputs);
+  } else if (inputs.size() > 1) {
+    diagnostics.error(*description, "", "a scene description stands alone: name the other files in it");
+  } else {
+    std::ifstream stream(*description, std::ios::binary);
+    std::ostringstream text;
+    if (stream) text << stream.rdbuf();
+    if (!stream)
+      diagnostics.error(*description, "", "cannot be read");
+    else
+      scene = parseScene(std::move(text).str(), *description, diagnostics);
   }
-  size_t done = 0;
-  const size_t all = inputs.size() + options.elevation.size();
-  const auto read = [&](const std::string& file, bool elevationOnly) {
-    if (options.progress)
+  if (!scene) return std::nullopt;
+  for (SceneSource& s : scene->sources) {
+    s.file = resolve(*scene, options, s.file);
+    // The command line's wishes hold for all sources that have none of their own.
+    if (s.heightColumn.empty()) s.heightColumn = options.heightColumn;
+    if (s.groundColumn.empty()) s.groundColumn = options.groundColumn;
+    s.lod = std::min(s.lod, options.lod);
+    s.styles.insert(s.styles.end(), scene->styles.begin(), scene->styles.end());
+  }
+  for (std::string& file : scene->terrain.files) file = resolve(*scene, options, file);
+  for (SceneMonument& m : scene->monuments) m.file = resolve(*scene, options, m.file);
+  if (!options.terrainUnit.empty()) scene->terrain.unit = options.terrainUnit;
+  scene->terrain.files.insert(scene->terrain.files.end(), options.elevation.begin(), options.elevation.end());
+  return scene;
+}
+
+LoadResult loadScene(const SceneDescription& scene, const LoadOptions& options) {
+  LoadResult result;
+  GdalMessages messages;
+  const std::string named = scene.crs.empty() ? "" : crsFromText(scene.crs);
+  if (!scene.crs.empty() && named.empty())
+    result.diagnostics.error(scene.file, "crs", "the CRS " + scene.crs + " is not known");
+  std::string fallback = named;
+  if (!options.crs.empty()) {
+    fallback = crsFromText(options.crs);
+    if (fallback.empty()) result.diagnostics.error("--crs", "", "the CRS " + options.crs + " is not known");
+  }
+
+  // Every file in its own thread; what they say in their order.
+  const size_t sources = scene.sources.size(), rasters = scene.terrain.files.size(),
+               all = sources + rasters + scene.monuments.size();
+  std::vector<FileContent> contents(all);
+  std::atomic<size_t> done = 0;
+  std::mutex progressMutex;
+  parallelFor(all, 1, [&](size_t i) {
+    const GdalMessages quiet;
+    const std::string& file = i < sources             ? scene.sources[i].file
+                              : i < sources + rasters ? scene.terrain.files[i - sources]
+                                                      : scene.monuments[i - sources - rasters].file;
+    if (options.progress) {
+      const std::scoped_lock lock(progressMutex);
       options.progress("reading " + fs::path(file).filename().string(),
                        static_cast<double>(done) / static_cast<double>(all));
-    readFile(input, file, elevationOnly);
+    }
+    if (i < sources)
+      contents[i] = readFile(scene.sources[i], fallback);
+    else if (i < sources + rasters)
+      contents[i] = readElevationFile(file, scene.terrain, fallback);
+    else
+      contents[i] = readMonument(scene.monuments[i - sources - rasters], file, named);
     ++done;
-  };
-  for (const std::string& file : inputs) read(file, false);
-  for (const std::string& file : options.elevation) read(file, true);
+  });
+  std::vector<Source> found;
+  std::vector<ElevationRaster> elevation;
+  for (FileContent& c : contents) {
+    std::move(c.sources.begin(), c.sources.end(), std::back_inserter(found));
+    elevation.insert(elevation.end(), c.rasters.begin(), c.rasters.end());
+    std::move(c.diagnostics.messages.begin(), c.diagnostics.messages.end(),
+              std::back_inserter(result.diagnostics.messages));
+    std::move(c.diagnostics.leftOut.begin(), c.diagnostics.leftOut.end(),
+              std::back_inserter(result.diagnostics.leftOut));
+  }
 
-  result.city = assembleCity(std::move(input.sources), input.rasters, options, input.messages, result.diagnostics);
-  if (result.city)
-    result.city->name = inputs.empty() ? "" : fs::path(inputs[0]).stem().string();
-  else if (!result.diagnostics.hasErrors())
-    result.diagnostics.error(inputs.empty() ? "" : inputs[0], "", "holds neither buildings nor terrain");
+  // A city CRS in degrees or feet is brought to metres like any other.
+  const std::string crs = !named.empty() && kindOf(named).geographic ? std::string() : named;
+  result.city = assembleCity(std::move(found), elevation, {crs, fallback}, options, messages, result.diagnostics);
+  if (result.city) {
+    result.city->name = scene.name;
+    applyScene(*result.city, scene, options.shift, result.diagnostics);
+  } else if (!result.diagnostics.hasErrors()) {
+    const std::string& first = !scene.file.empty() || scene.sources.empty() ? scene.file : scene.sources[0].file;
+    result.diagnostics.error(first, "", "holds neither buildings nor terrain");
+  }
   return result;
 }
 
@@ -173,21 +181,29 @@ struct CachePlace {
   std::string hash;
 };
 
-CachePlace cachePlaceOf(std::span<const std::string> inputs, const LoadOptions& options) {
-  Hash64 scene;
+CachePlace cachePlaceOf(std::span<const std::string> inputs, const SceneDescription& scene,
+                        const LoadOptions& options) {
+  Hash64 key;
   std::error_code error;
-  for (const auto& list : {inputs, std::span<const std::string>(options.elevation)}) {
-    scene.addNumber(list.size());
-    for (const std::string& file : list) scene.addText(fs::absolute(file, error).string());
+  std::vector<std::string> files;
+  for (const SceneSource& s : scene.sources) files.push_back(s.file);
+  files.insert(files.end(), scene.terrain.files.begin(), scene.terrain.files.end());
+  for (const SceneMonument& m : scene.monuments) files.push_back(m.file);
+  for (const std::string& file : inputs) key.addText(fs::absolute(file, error).string());
+  key.addNumber(files.size());
+  for (const std::string& file : files) key.addText(fs::absolute(file, error).string());
+  for (const std::string& text : {options.heightColumn, options.groundColumn, options.crs, options.terrainUnit})
+    key.addText(text);
+  for (const double shift : {options.shift.x, options.shift.y, options.shift.z, options.lod})
+    key.addNumber(std::bit_cast<uint64_t>(shift));
+  Hash64 content = key;
+  if (!scene.file.empty()) addContent(content, scene.file);
+  for (const std::string& file : files) {
+    addContent(content, file);
+    for (const std::string& named : filesNamedIn(file)) addContent(content, named);
   }
-  for (const std::string& text : {options.heightColumn, options.groundColumn, options.crs}) scene.addText(text);
-  for (const double shift : {options.shift.x, options.shift.y, options.shift.z})
-    scene.addNumber(std::bit_cast<uint64_t>(shift));
-  Hash64 content = scene;
-  for (const auto& list : {inputs, std::span<const std::string>(options.elevation)})
-    for (const std::string& file : list) addContent(content, file);
   const std::string name = inputs.empty() ? "city" : fs::path(inputs[0]).stem().string();
-  return {fs::path(options.cacheFolder) / (name + "-" + scene.text() + ".sqlite"), content.text()};
+  return {fs::path(options.cacheFolder) / (name + "-" + key.text() + ".sqlite"), content.text()};
 }
 
 /// An open cache and what it has to say.
@@ -198,21 +214,22 @@ struct CacheFile {
 };
 
 /// The city as it was when these files were last read, else as they are read now.
-LoadResult loadThroughCache(std::span<const std::string> inputs, const LoadOptions& options) {
+LoadResult loadThroughCache(std::span<const std::string> inputs, const SceneDescription& scene,
+                            const LoadOptions& options) {
   constexpr std::string_view kKind = "city";
   if (options.progress) options.progress("cache", 0);
-  const CachePlace place = cachePlaceOf(inputs, options);
+  const CachePlace place = cachePlaceOf(inputs, scene, options);
   auto file = std::make_unique<CacheFile>(place.file);
   LoadResult result;
   if (const auto bytes = file->cache.read(kKind, place.hash, kBuilderVersion)) {
     if (auto cached = decodeCity(*bytes))
-      result = {std::move(cached->city), std::move(cached->diagnostics), true, {}};
+      result = {std::move(cached->city), std::move(cached->diagnostics), true, {}, {}};
     else
       file->diagnostics.warn(place.file.string(), "", "the city in the cache is damaged and is made anew");
   }
   std::string fresh;
   if (!result.fromCache) {
-    result = loadFiles(inputs, options);
+    result = loadScene(scene, options);
     if (result.city) {
       CachedCity whole{std::move(*result.city), std::move(result.diagnostics)};
       fresh = encodeCity(whole);
@@ -246,7 +263,11 @@ LoadResult loadCity(std::span<const std::string> inputs, const LoadOptions& opti
       }
       return loadBuiltIn(input, options);
     }
-    return options.cacheFolder.empty() ? loadFiles(inputs, options) : loadThroughCache(inputs, options);
+    const std::optional<SceneDescription> scene = sceneOf(inputs, options, result.diagnostics);
+    if (!scene) return result;
+    result = options.cacheFolder.empty() ? loadScene(*scene, options) : loadThroughCache(inputs, *scene, options);
+    result.settings = scene->knobs;
+    return result;
   } catch (const std::exception& e) {
     result.city.reset();
     result.diagnostics.error(inputs.empty() ? "" : inputs[0], "", std::string("could not be loaded: ") + e.what());

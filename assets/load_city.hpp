@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "assets/scene/scene_description.hpp"
 #include "city/city.hpp"
 #include "city/diagnostics.hpp"
 
@@ -22,6 +23,9 @@ struct LoadOptions {
   std::string heightColumn;            ///< column of building heights, metres; empty: found by its usual names
   std::string groundColumn;            ///< column of ground altitude; empty: found by its usual names
   std::string crs;                     ///< CRS of sources that state none (`--crs EPSG:…`)
+  double lod = 10;                     ///< finest level of detail that is wanted of CityJSON and CityGML (`--lod`)
+  std::string terrainUnit;             ///< of the rasters' heights: m, dm, cm, ft, us-ft; empty: as they say
+  std::string dataFolder;              ///< where files of scene descriptions lie that are not beside these
   glm::dvec3 shift{0};                 ///< metres added to all coordinates (`--shift`), for tests of far coordinates
   std::string cacheFolder;             ///< where the cache lies; empty: no cache
   Progress progress;                   ///< may be empty
@@ -34,10 +38,12 @@ struct LoadResult {
   /// Where the city is written to the cache: that goes on while it is shown. Gives what there is to say of it; waited
   /// for where it is dropped.
   std::future<city::Diagnostics> cached;
+  std::vector<SceneSetting> settings;  ///< of knobs, as the scene description gives them
 };
 
-/// Inputs are `norvic`, `norvic:8000`, `norwich-2001`, or paths of footprints (any OGR format), CityJSON and elevation
-/// rasters, all brought into one city. Never throws: what could not be read is in the diagnostics.
+/// Inputs are `norvic`, `norvic:8000`, `norwich-2001`, a scene description (*.toml), or paths of data files of any kind
+/// that `readFile` knows, all brought into one city. Files are read in parallel. Never throws: what could not be read
+/// is in the diagnostics.
 LoadResult loadCity(std::span<const std::string> inputs, const LoadOptions& options);
 
 }  // namespace vicus::assets

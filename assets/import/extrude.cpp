@@ -15,7 +15,8 @@ constexpr double kInLine = 0.03;
 
 /// A footprint whose corners all matter, with what stands against its edges.
 Extrusion::Part merged(const Extrusion::Part& part) {
-  Extrusion::Part out;
+  Extrusion::Part out = part;
+  out.polygon = {}, out.shared.clear();
   for (size_t r = 0; r < part.polygon.rings.size(); ++r) {
     const Ring& ring = part.polygon.rings[r];
     Ring& kept = out.polygon.rings.emplace_back();
@@ -37,24 +38,26 @@ glm::vec2 uv(double u, double v) {
 }
 
 /// The wall over the edge a → b, seen from the right of it.
-void addWall(BuildingBuilder& builder, const Extrusion& e, glm::dvec2 a, glm::dvec2 b, bool shared) {
+void addWall(BuildingBuilder& builder, const Extrusion& e, const Extrusion::Part& part, glm::dvec2 a, glm::dvec2 b,
+             bool shared) {
   const double length = glm::length(b - a);
   if (!(length > 0)) return;
   const glm::dvec2 along = (b - a) / length;
-  const int bays = shared || e.height < kSmallestFacadeHeight ? 0 : baysIn(length);
+  const double storeyed = part.height - part.bottom, foot = part.bottom > 0 ? part.bottom : -e.foundation;
+  const int bays = shared || storeyed < kSmallestFacadeHeight ? 0 : baysIn(length);
   const Finish finish = bays > 0 ? e.style.facade : e.style.plain;
   builder.beginPlane(PlaneKind::Wall, id(finish), at({along.y, -along.x}, 0));
   if (bays > 0) {
-    const double storeys = storeysIn(e.height);
-    builder.addQuad({at(a, 0), at(b, 0), at(b, e.height), at(a, e.height)},
+    const double storeys = storeysIn(storeyed);
+    builder.addQuad({at(a, part.bottom), at(b, part.bottom), at(b, part.height), at(a, part.height)},
                     {uv(0, 0), uv(bays, 0), uv(bays, storeys), uv(0, storeys)}, id(finish));
-    if (e.foundation > 0)
-      builder.addQuad(at(a, -e.foundation), at(b, -e.foundation), at(b, 0), at(a, 0), id(e.style.plain));
+    if (foot < part.bottom)
+      builder.addQuad(at(a, foot), at(b, foot), at(b, part.bottom), at(a, part.bottom), id(e.style.plain));
   } else {
-    builder.addQuad(at(a, -e.foundation), at(b, -e.foundation), at(b, e.height), at(a, e.height), id(finish));
+    builder.addQuad(at(a, foot), at(b, foot), at(b, part.height), at(a, part.height), id(finish));
   }
   builder.addOccluder(
-      {glm::vec2(at(a, 0)), glm::vec2(at(b, 0)), static_cast<float>(-e.foundation), static_cast<float>(e.height)});
+      {glm::vec2(at(a, 0)), glm::vec2(at(b, 0)), static_cast<float>(foot), static_cast<float>(part.height)});
 }
 
 /// One slope of a roof: the polygon stands on its first edge, the eave.
@@ -71,8 +74,20 @@ void addSlope(BuildingBuilder& builder, std::initializer_list<glm::dvec3> polygo
   builder.addConvex(corners, glm::vec3(u), glm::vec3(glm::cross(normal, u)), id(finish));
 }
 
-double roofHeight(double run, double pitch) {
+double rise(double run, double pitch) {
   return std::min(kHighestRoof, run * std::tan(pitch));
+}
+
+/// The level underside of what hangs above the ground.
+void addUnderside(BuildingBuilder& builder, const Extrusion& e, const Extrusion::Part& part) {
+  Triangulation cut = triangulate(part.polygon);
+  if (cut.triangles.empty()) return;
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec2> uvs;
+  for (const glm::dvec2& p : cut.points) positions.push_back(at(p, part.bottom)), uvs.push_back(uv(p.x, p.y));
+  for (size_t t = 0; t + 2 < cut.triangles.size(); t += 3) std::swap(cut.triangles[t + 1], cut.triangles[t + 2]);
+  builder.beginPlane(PlaneKind::Floor, id(e.style.plain), {0, 0, -1});
+  builder.addTriangles(positions, uvs, cut.triangles, {0, 0, -1}, id(e.style.plain));
 }
 
 /// Two slopes that meet over the middle of two opposite edges, which become gables: those that neighbours stand against
@@ -83,21 +98,35 @@ double roofHeight(double run, double pitch) {
 ///    m ├──────────── n       where 1–2 and 3–0 become gables
 ///      │            │
 ///      0 ────────── 1
-void addGableRoof(BuildingBuilder& builder, const Extrusion& e, const Extrusion::Part& part) {
-  const Ring& ring = part.polygon.rings[0];
-  const std::vector<uint8_t>& shared = part.shared[0];
+///
+/// With `hips` the ridge is shortened by half the width at either end (at most to a point over the middle) and slopes
+/// take the gables' place.
+struct GableFrame {
+  glm::dvec2 p0, p1, p2, p3, n, m;
+  double width = 0;
+};
+
+GableFrame gableFrame(const Ring& ring, const std::vector<uint8_t>& shared) {
   const auto length = [&](size_t i) { return glm::length(ring[(i + 1) % 4] - ring[i]); };
-  const int against02 = shared[0] + shared[2], against13 = shared[1] + shared[3];
+  const int against02 = shared.empty() ? 0 : shared[0] + shared[2],
+            against13 = shared.empty() ? 0 : shared[1] + shared[3];
   const bool along0 = against02 != against13 ? against13 > against02 : length(0) + length(2) >= length(1) + length(3);
   const size_t s = along0 ? 0 : 1;
-  const glm::dvec2 p0 = ring[s], p1 = ring[s + 1], p2 = ring[(s + 2) % 4], p3 = ring[(s + 3) % 4];
-  const glm::dvec2 n = (p1 + p2) / 2.0, m = (p3 + p0) / 2.0;
-  const double width = (length((s + 1) % 4) + length((s + 3) % 4)) / 2;
-  const double ridge = e.height + roofHeight(width / 2, e.pitch);
-  const glm::dvec3 n3(n, ridge), m3(m, ridge);
-  builder.beginLevel(static_cast<float>(e.height), static_cast<float>(ridge));
+  GableFrame f{ring[s], ring[s + 1], ring[(s + 2) % 4], ring[(s + 3) % 4], {}, {}, 0};
+  f.n = (f.p1 + f.p2) / 2.0, f.m = (f.p3 + f.p0) / 2.0;
+  f.width = (length((s + 1) % 4) + length((s + 3) % 4)) / 2;
+  return f;
+}
+
+void addGableRoof(BuildingBuilder& builder, const Extrusion& e, const Extrusion::Part& part, bool hips) {
+  const auto [p0, p1, p2, p3, n, m, width] = gableFrame(part.polygon.rings[0], part.shared[0]);
+  const double ridge = part.height + (part.roofHeight > 0 ? part.roofHeight : rise(width / 2, e.pitch));
+  const glm::dvec2 inward =
+      hips && glm::length(m - n) > 0 ? (m - n) * std::min(0.49, width / 2 / glm::length(m - n)) : glm::dvec2(0);
+  const glm::dvec3 n3(n + inward, ridge), m3(m - inward, ridge);
+  builder.beginLevel(static_cast<float>(part.height), static_cast<float>(ridge));
   const auto side = [&](glm::dvec2 a, glm::dvec2 b, glm::dvec3 overB, glm::dvec3 overA) {
-    const glm::dvec3 a3(a, e.height), b3(b, e.height);
+    const glm::dvec3 a3(a, part.height), b3(b, part.height);
     // Flat where eave and ridge are parallel, else two triangles.
     const glm::dvec2 eave = glm::normalize(b - a), top = glm::normalize(glm::dvec2(overB - overA));
     if (std::abs(eave.x * top.y - eave.y * top.x) < 1e-3) {
@@ -109,36 +138,64 @@ void addGableRoof(BuildingBuilder& builder, const Extrusion& e, const Extrusion:
   };
   side(p0, p1, n3, m3);
   side(p2, p3, m3, n3);
-  const auto gable = [&](glm::dvec2 a, glm::dvec2 b, glm::dvec3 top) {
+  const auto end = [&](glm::dvec2 a, glm::dvec2 b, glm::dvec3 top) {
+    if (hips) {
+      addSlope(builder, {glm::dvec3(a, part.height), glm::dvec3(b, part.height), top}, e.style.roof);
+      return;
+    }
     const glm::dvec2 along = glm::normalize(b - a);
     builder.beginPlane(PlaneKind::Gable, id(e.style.plain), at({along.y, -along.x}, 0));
-    const glm::vec3 corners[] = {at(a, e.height), at(b, e.height), glm::vec3(top)};
+    const glm::vec3 corners[] = {at(a, part.height), at(b, part.height), glm::vec3(top)};
     builder.addConvex(corners, at(along, 0), {0, 0, 1}, id(e.style.plain));
   };
-  gable(p1, p2, n3);
-  gable(p3, p0, m3);
+  end(p1, p2, n3);
+  end(p3, p0, m3);
 }
 
-/// Slopes from every eave to one point over the middle; the steepest has the pitch asked for.
-void addPyramidRoof(BuildingBuilder& builder, const Extrusion& e, const Polygon& polygon) {
-  const Ring& ring = polygon.rings[0];
-  const glm::dvec2 middle = centroid(polygon);
+/// One slope that falls to the longest edge; the walls under its other sides reach up to it.
+void addSlopeRoof(BuildingBuilder& builder, const Extrusion& e, const Extrusion::Part& part) {
+  const auto [p0, p1, p2, p3, n, m, width] = gableFrame(part.polygon.rings[0], {});
+  const double low = part.height, high = low + (part.roofHeight > 0 ? part.roofHeight : rise(width, e.pitch / 2));
+  builder.beginLevel(static_cast<float>(low), static_cast<float>(high));
+  const glm::dvec3 a(p0, low), b(p1, low), c(p2, high), d(p3, high);
+  addSlope(builder, {a, b, c}, e.style.roof);
+  addSlope(builder, {a, c, d}, e.style.roof);
+  const auto upright = [&](std::initializer_list<glm::vec3> corners, glm::dvec2 from, glm::dvec2 to) {
+    const glm::dvec2 along = glm::normalize(to - from);
+    builder.beginPlane(PlaneKind::Gable, id(e.style.plain), at({along.y, -along.x}, 0));
+    builder.addConvex(std::vector<glm::vec3>(corners), at(along, 0), {0, 0, 1}, id(e.style.plain));
+  };
+  upright({at(p1, low), at(p2, low), at(p2, high)}, p1, p2);
+  upright({at(p2, low), at(p3, low), at(p3, high), at(p2, high)}, p2, p3);
+  upright({at(p3, low), at(p0, low), at(p3, high)}, p3, p0);
+}
+
+/// Metres from the middle to the nearest line through an edge.
+double runToMiddle(const Ring& ring, glm::dvec2 middle) {
   double run = INFINITY;
   for (size_t i = 0; i < ring.size(); ++i) {
     const glm::dvec2 a = ring[i], d = glm::normalize(ring[(i + 1) % ring.size()] - a);
     run = std::min(run, std::abs(d.x * (middle.y - a.y) - d.y * (middle.x - a.x)));
   }
-  const double top = e.height + roofHeight(run, e.pitch);
-  builder.beginLevel(static_cast<float>(e.height), static_cast<float>(top));
+  return run;
+}
+
+/// Slopes from every eave to one point over the middle; the steepest has the pitch asked for.
+void addPyramidRoof(BuildingBuilder& builder, const Extrusion& e, const Extrusion::Part& part) {
+  const Ring& ring = part.polygon.rings[0];
+  const glm::dvec2 middle = centroid(part.polygon);
+  const double top = part.height + (part.roofHeight > 0 ? part.roofHeight : rise(runToMiddle(ring, middle), e.pitch));
+  builder.beginLevel(static_cast<float>(part.height), static_cast<float>(top));
   for (size_t i = 0; i < ring.size(); ++i)
-    addSlope(
-        builder,
-        {glm::dvec3(ring[i], e.height), glm::dvec3(ring[(i + 1) % ring.size()], e.height), glm::dvec3(middle, top)},
-        e.style.roof);
+    addSlope(builder,
+             {glm::dvec3(ring[i], part.height), glm::dvec3(ring[(i + 1) % ring.size()], part.height),
+              glm::dvec3(middle, top)},
+             e.style.roof);
 }
 
 /// A level surface at the eaves; texture along the longest edge.
-bool addFlatRoof(BuildingBuilder& builder, const Extrusion& e, const Polygon& polygon) {
+bool addFlatRoof(BuildingBuilder& builder, const Extrusion& e, const Extrusion::Part& part) {
+  const Polygon& polygon = part.polygon;
   const Triangulation cut = triangulate(polygon);
   if (cut.triangles.empty()) return false;
   const Ring& outer = polygon.rings[0];
@@ -151,10 +208,10 @@ bool addFlatRoof(BuildingBuilder& builder, const Extrusion& e, const Polygon& po
   std::vector<glm::vec3> positions;
   std::vector<glm::vec2> uvs;
   for (const glm::dvec2& p : cut.points) {
-    positions.push_back(at(p, e.height));
+    positions.push_back(at(p, part.height));
     uvs.push_back(uv(glm::dot(p, u), u.x * p.y - u.y * p.x));
   }
-  builder.beginLevel(static_cast<float>(e.height), static_cast<float>(e.height));
+  builder.beginLevel(static_cast<float>(part.height), static_cast<float>(part.height));
   builder.beginPlane(PlaneKind::Roof, id(e.style.roof), {0, 0, 1});
   builder.addTriangles(positions, uvs, cut.triangles, {0, 0, 1}, id(e.style.roof));
   return true;
@@ -162,17 +219,46 @@ bool addFlatRoof(BuildingBuilder& builder, const Extrusion& e, const Polygon& po
 
 }  // namespace
 
-RoofShape roofShapeOf(const Polygon& footprint) {
-  if (footprint.rings.size() != 1) return RoofShape::Flat;
+RoofForm roofFormOf(const Polygon& footprint) {
+  if (footprint.rings.size() != 1) return RoofForm::Flat;
   const Ring& ring = footprint.rings[0];
-  if (ring.size() > 6 || !isConvex(ring)) return RoofShape::Flat;
-  if (ring.size() != 4) return RoofShape::Pyramid;
+  if (ring.size() > 6 || !isConvex(ring)) return RoofForm::Flat;
+  if (ring.size() != 4) return RoofForm::Pyramid;
   for (size_t i = 0; i < 4; ++i) {
     const glm::dvec2 in = glm::normalize(ring[(i + 1) % 4] - ring[i]);
     const glm::dvec2 out = glm::normalize(ring[(i + 2) % 4] - ring[(i + 1) % 4]);
-    if (std::abs(glm::dot(in, out)) > 0.5) return RoofShape::Pyramid;  // further than 30° from a right angle
+    if (std::abs(glm::dot(in, out)) > 0.5) return RoofForm::Pyramid;  // further than 30° from a right angle
   }
-  return RoofShape::Gable;
+  return RoofForm::Gable;
+}
+
+RoofForm roofFormOf(const Polygon& footprint, RoofForm stated) {
+  const RoofForm usual = roofFormOf(footprint);
+  switch (stated) {
+    case RoofForm::Unknown:
+      return usual;
+    case RoofForm::Flat:
+      return RoofForm::Flat;
+    case RoofForm::Pyramid:
+      return footprint.rings.size() == 1 && isConvex(footprint.rings[0]) ? RoofForm::Pyramid : RoofForm::Flat;
+    default:
+      return usual == RoofForm::Gable ? stated : usual;
+  }
+}
+
+double roofRise(const Polygon& footprint, RoofForm form, double pitch) {
+  const Ring& ring = footprint.rings.at(0);
+  switch (form) {
+    case RoofForm::Gable:
+    case RoofForm::Hip:
+      return rise(gableFrame(ring, {}).width / 2, pitch);
+    case RoofForm::Slope:
+      return rise(gableFrame(ring, {}).width, pitch / 2);
+    case RoofForm::Pyramid:
+      return rise(runToMiddle(ring, centroid(footprint)), pitch);
+    default:
+      return 0;
+  }
 }
 
 std::optional<city::BuildingGeometry> extrude(const Extrusion& e, std::string name) {
@@ -188,23 +274,31 @@ std::optional<city::BuildingGeometry> extrude(const Extrusion& e, std::string na
       for (const glm::dvec2& p : ring) line.emplace_back(p);
     }
   }
-  builder.beginLevel(static_cast<float>(-e.foundation), static_cast<float>(e.height));
-  for (const Extrusion::Part& part : parts)
+  double eaves = -e.foundation;
+  for (const Extrusion::Part& part : parts) eaves = std::max(eaves, part.height);
+  builder.beginLevel(static_cast<float>(-e.foundation), static_cast<float>(eaves));
+  for (const Extrusion::Part& part : parts) {
     for (size_t r = 0; r < part.polygon.rings.size(); ++r) {
       const Ring& ring = part.polygon.rings[r];
       for (size_t i = 0; i < ring.size(); ++i)
-        addWall(builder, e, ring[i], ring[(i + 1) % ring.size()], part.shared[r][i] != 0);
+        addWall(builder, e, part, ring[i], ring[(i + 1) % ring.size()], part.shared[r][i] != 0);
     }
+    if (part.bottom > 0) addUnderside(builder, e, part);
+  }
   for (const Extrusion::Part& part : parts) {
-    switch (roofShapeOf(part.polygon)) {
-      case RoofShape::Gable:
-        addGableRoof(builder, e, part);
+    switch (roofFormOf(part.polygon, part.roof)) {
+      case RoofForm::Gable:
+      case RoofForm::Hip:
+        addGableRoof(builder, e, part, part.roof == RoofForm::Hip);
         break;
-      case RoofShape::Pyramid:
-        addPyramidRoof(builder, e, part.polygon);
+      case RoofForm::Slope:
+        addSlopeRoof(builder, e, part);
         break;
-      case RoofShape::Flat:
-        if (!addFlatRoof(builder, e, part.polygon)) return std::nullopt;
+      case RoofForm::Pyramid:
+        addPyramidRoof(builder, e, part);
+        break;
+      default:
+        if (!addFlatRoof(builder, e, part)) return std::nullopt;
         break;
     }
   }

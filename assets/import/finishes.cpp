@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "assets/import/parallel.hpp"
+#include "assets/import/style_rules.hpp"
 #include "assets/materials/materials.hpp"
 
 namespace vicus::assets {
@@ -14,8 +15,11 @@ namespace {
 
 constexpr auto kCount = static_cast<size_t>(Finish::Count);
 constexpr std::array<std::string_view, kCount> kNames = {
-    "plaster", "limewash", "brick", "ashlar", "rubble",           "timber",         "tile",
-    "slate",   "concrete", "glass", "door",   "facade-limestone", "facade-plaster", "facade-brick"};
+    "plaster",        "limewash",     "brick",      "ashlar",
+    "rubble",         "timber",       "tile",       "slate",
+    "concrete",       "glass",        "door",       "facade-limestone",
+    "facade-plaster", "facade-brick", "brick-dark", "flint",
+    "planks",         "thatch",       "lead",       "facade-plaster-shutters"};
 
 bool mentions(std::string_view text, std::initializer_list<std::string_view> words) {
   std::string lower(text);
@@ -59,23 +63,40 @@ int storeysIn(double height) {
   return std::max(1, static_cast<int>(std::lround(std::min(height, 1e6) / 2.9)));
 }
 
-void keepUsedFinishes(city::City& city) {
-  std::array<bool, kCount> used{};
+std::optional<Finish> finishNamed(std::string_view name) {
+  const auto found = std::find(kNames.begin(), kNames.end(), name);
+  if (found == kNames.end()) return std::nullopt;
+  return static_cast<Finish>(found - kNames.begin());
+}
+
+std::vector<std::string> finishNames() {
+  return {kNames.begin(), kNames.end()};
+}
+
+void keepUsedMaterials(city::City& city, std::span<const city::Material> own) {
+  const size_t all = kCount + own.size();
+  std::vector<uint8_t> used(all, 0);
   for (const city::BuildingGeometry& g : city.buildingTypes) {
-    for (const city::Vertex& v : g.vertices) used.at(v.material) = true;
-    for (const city::Plane& p : g.planes) used.at(p.baseTexture) = true;
+    for (const city::Vertex& v : g.vertices) used.at(v.material) = 1;
+    for (const city::Plane& p : g.planes) used.at(p.baseTexture) = 1;
   }
-  std::array<city::MaterialId, kCount> number{};
+  for (const auto* list : {&city.meshes, &city.treeTypes})
+    for (const city::MeshGeometry& g : *list)
+      for (const city::Vertex& v : g.mesh.vertices) used.at(v.material) = 1;
+  std::vector<city::MaterialId> number(all, 0);
   city.materials.clear();
-  for (size_t i = 0; i < kCount; ++i)
+  for (size_t i = 0; i < all; ++i)
     if (used[i]) {
       number[i] = static_cast<city::MaterialId>(city.materials.size());
-      city.materials.push_back(builtinMaterial(kNames[i]));
+      city.materials.push_back(i < kCount ? builtinMaterial(kNames[i]) : own[i - kCount]);
     }
   parallelFor(city.buildingTypes.size(), 256, [&](size_t t) {
     for (city::Vertex& v : city.buildingTypes[t].vertices) v.material = number[v.material];
     for (city::Plane& p : city.buildingTypes[t].planes) p.baseTexture = number[p.baseTexture];
   });
+  for (auto* list : {&city.meshes, &city.treeTypes})
+    for (city::MeshGeometry& g : *list)
+      for (city::Vertex& v : g.mesh.vertices) v.material = number[v.material];
 }
 
 }  // namespace vicus::assets

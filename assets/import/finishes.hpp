@@ -2,14 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 #include "city/city.hpp"
 
 namespace vicus::assets {
 
-/// What a surface is finished with. While a city is put together the number is its MaterialId; `keepUsedFinishes` turns
-/// that into the city's own list.
+/// What a surface is finished with. While a city is put together the number is its MaterialId; `keepUsedMaterials`
+/// turns that into the city's own list.
 enum class Finish : city::MaterialId {
   Plaster,
   Limewash,
@@ -25,6 +26,12 @@ enum class Finish : city::MaterialId {
   FacadeLimestone,
   FacadePlaster,
   FacadeBrick,
+  BrickDark,
+  Flint,
+  Planks,
+  Thatch,
+  Lead,
+  FacadePlasterShutters,
   Count
 };
 
@@ -55,7 +62,15 @@ int storeysIn(double height);
 constexpr double kSmallestFacadeLength = 1.8;
 constexpr double kSmallestFacadeHeight = 2.0;
 
-/// Fills City::materials with the finishes that its building types use, and renumbers these.
-void keepUsedFinishes(city::City& city);
+/// Material number of entry `i` of a city's own materials while it is put together: they follow the finishes.
+constexpr city::MaterialId ownMaterial(size_t i) {
+  return static_cast<city::MaterialId>(static_cast<size_t>(Finish::Count) + i);
+}
+/// So many own materials a city may have.
+constexpr size_t kMostOwnMaterials = 60000;
+
+/// Fills City::materials with the finishes and own materials that its building types and meshes use, and renumbers
+/// these.
+void keepUsedMaterials(city::City& city, std::span<const city::Material> own);
 
 }  // namespace vicus::assets

@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "assets/import/assembly.hpp"
 #include "assets/import/gdal_messages.hpp"
 
 namespace vicus::assets {
@@ -134,6 +135,85 @@ std::optional<city::GroundCover> guessGroundCover(const city::City& city) {
   for (size_t i = 0; i < cells; ++i)
     cover.kinds[i] = coverOf(static_cast<double>(distanceCells[i]) * cover.spacing, static_cast<double>(share[i]));
   return cover;
+}
+
+namespace {
+
+std::unique_ptr<OGRGeometry> shapeOf(const std::vector<Polygon>& parts, glm::dvec2 origin) {
+  auto shape = std::make_unique<OGRMultiPolygon>();
+  for (const Polygon& part : parts) {
+    OGRPolygon polygon;
+    for (const Ring& ring : part.rings) {
+      OGRLinearRing line;
+      for (const glm::dvec2& p : ring) line.addPoint(p.x - origin.x, p.y - origin.y);
+      line.closeRings();
+      polygon.addRing(&line);
+    }
+    shape->addGeometry(&polygon);
+  }
+  return shape;
+}
+
+/// The strip that a street covers.
+std::unique_ptr<OGRGeometry> shapeOf(const StreetLine& street, glm::dvec2 origin) {
+  OGRLineString line;
+  for (const glm::dvec2& p : street.points) line.addPoint(p.x - origin.x, p.y - origin.y);
+  return std::unique_ptr<OGRGeometry>(line.Buffer(street.width / 2, 4));
+}
+
+/// Grass everywhere, over the terrain's extent.
+city::GroundCover plainCover(const city::HeightField& terrain) {
+  city::GroundCover cover;
+  cover.origin = terrain.origin;
+  cover.spacing = std::max(1.0, std::max(terrain.extent().x, terrain.extent().y) / kMostCells);
+  cover.size = glm::max(glm::ivec2(glm::ceil(terrain.extent() / cover.spacing)), glm::ivec2(1));
+  cover.kinds.assign(static_cast<size_t>(cover.size.x) * static_cast<size_t>(cover.size.y), Ground::Grass);
+  return cover;
+}
+
+}  // namespace
+
+void paintGroundCover(city::City& city, const std::vector<Source>& sources) {
+  city.groundCover = guessGroundCover(city);
+  const bool painted = std::any_of(sources.begin(), sources.end(), [](const Source& s) {
+    return !s.surroundings.cover.empty() || !s.surroundings.streets.empty();
+  });
+  if (!painted || !city.terrain || city.terrain->empty()) return;
+  const GdalMessages quiet;
+  if (!city.groundCover) city.groundCover = plainCover(*city.terrain);
+  city::GroundCover& cover = *city.groundCover;
+  const auto raster = memoryRaster(cover.size, GDT_Byte);
+  if (!raster) return;
+  double cellToPlan[6] = {cover.origin.x, cover.spacing, 0, cover.origin.y, 0, cover.spacing};
+  raster->SetGeoTransform(cellToPlan);
+
+  // Areas first, then the streets over them; 0 leaves what was guessed.
+  std::vector<std::unique_ptr<OGRGeometry>> shapes;
+  std::vector<OGRGeometryH> handles;
+  std::vector<double> values;
+  const auto add = [&](std::unique_ptr<OGRGeometry> shape, Ground kind) {
+    if (!shape || shape->IsEmpty()) return;
+    handles.push_back(OGRGeometry::ToHandle(shape.get()));
+    values.push_back(1 + static_cast<double>(kind));
+    shapes.push_back(std::move(shape));
+  };
+  const glm::dvec2 origin(city.origin);
+  for (const Source& s : sources)
+    for (const CoverArea& area : s.surroundings.cover) add(shapeOf(area.parts, origin), area.kind);
+  for (const Source& s : sources)
+    for (const StreetLine& street : s.surroundings.streets)
+      add(shapeOf(street, origin), street.kind == city::StreetKind::Lane ? Ground::Paving : Ground::Street);
+  int band = 1;
+  if (handles.empty() ||
+      GDALRasterizeGeometries(GDALDataset::ToHandle(raster.get()), 1, &band, static_cast<int>(handles.size()),
+                              handles.data(), nullptr, nullptr, values.data(), nullptr, nullptr, nullptr) != CE_None)
+    return;
+  std::vector<uint8_t> cells(cover.kinds.size());
+  if (raster->GetRasterBand(1)->RasterIO(GF_Read, 0, 0, cover.size.x, cover.size.y, cells.data(), cover.size.x,
+                                         cover.size.y, GDT_Byte, 0, 0, nullptr) != CE_None)
+    return;
+  for (size_t i = 0; i < cells.size(); ++i)
+    if (cells[i] > 0) cover.kinds[i] = static_cast<Ground>(cells[i] - 1);
 }
 
 }  // namespace vicus::assets

@@ -16,9 +16,14 @@ namespace vicus::assets {
 
 class GdalMessages;
 
-/// A building without a known height gets kDefaultHeight (6 m). Its frame has its origin at the footprint's centroid
-/// and z = 0 at the mean height of the ground along its outline, from where its height counts; its walls reach 0.3 m
-/// below the lowest ground there, and at least 0.5 m down.
+struct AssemblyRequest {
+  std::string crs;          ///< WKT of the CRS that the city is built in; empty: chosen
+  std::string fallbackCrs;  ///< WKT of what the user says of files whose own CRS is missing or wrong; may be empty
+};
+
+/// A building without a known height gets its source's default (6 m). Its frame has its origin at the footprint's
+/// centroid and z = 0 at the mean height of the ground along its outline, from where its height counts; its walls reach
+/// 0.3 m below the lowest ground there, and at least 0.5 m down.
 ///
 /// A building of surfaces keeps its own altitude.
 ///
@@ -26,9 +31,9 @@ class GdalMessages;
 /// altitudes that footprints state and those that buildings of surfaces state or begin at; else none, and the city is
 /// flat.
 ///
-/// Nothing where neither buildings nor terrain are left.
+/// Nothing where neither buildings nor meshes nor terrain are left.
 std::optional<city::City> assembleCity(std::vector<Source> sources, std::span<const ElevationRaster> rasters,
-                                       const LoadOptions& options, GdalMessages& messages,
-                                       city::Diagnostics& diagnostics);
+                                       const AssemblyRequest& request, const LoadOptions& options,
+                                       GdalMessages& messages, city::Diagnostics& diagnostics);
 
 }  // namespace vicus::assets

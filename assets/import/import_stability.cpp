@@ -32,7 +32,7 @@ Footprint square(glm::dvec2 corner, glm::dvec2 side, const std::string& id) {
   f.id = id;
   Polygon ring;
   ring.rings.push_back({corner, corner + glm::dvec2(side.x, 0), corner + side, corner + glm::dvec2(0, side.y)});
-  f.parts.push_back(std::move(ring));
+  f.parts.emplace_back().polygon = std::move(ring);
   f.height = 6;
   return f;
 }
@@ -44,7 +44,7 @@ double largestSideError(Source source) {
   city::Diagnostics diagnostics;
   std::vector<Source> sources;
   sources.push_back(std::move(source));
-  const auto city = assembleCity(std::move(sources), {}, {}, messages, diagnostics);
+  const auto city = assembleCity(std::move(sources), {}, {}, {}, messages, diagnostics);
   double worst = city && city->buildings.size() == wanted ? 0 : std::numeric_limits<double>::infinity();
   if (!city) return worst;
   for (const city::BuildingGeometry& type : city->buildingTypes) {

@@ -341,6 +341,29 @@ CleanedPolygons cleanPolygon(const Polygon& raw) {
   return out;
 }
 
+std::vector<Polygon> polygonise(std::span<const Ring> lines) {
+  const Geos geos;
+  std::vector<GEOSGeometry*> strings;
+  for (const Ring& line : lines) {
+    if (line.size() < 2) continue;
+    GEOSCoordSequence* points = GEOSCoordSeq_create_r(geos.handle(), static_cast<unsigned>(line.size()), 2);
+    for (size_t i = 0; i < line.size(); ++i)
+      GEOSCoordSeq_setXY_r(geos.handle(), points, static_cast<unsigned>(i), line[i].x, line[i].y);
+    if (GEOSGeometry* string = GEOSGeom_createLineString_r(geos.handle(), points)) strings.push_back(string);
+  }
+  std::vector<Polygon> out;
+  const auto all = geos.own(GEOSGeom_createCollection_r(geos.handle(), GEOS_MULTILINESTRING, strings.data(),
+                                                        static_cast<unsigned>(strings.size())));
+  if (!all) return out;
+  const auto noded = geos.own(GEOSUnaryUnion_r(geos.handle(), all.get()));
+  if (!noded) return out;
+  const GEOSGeometry* parts[] = {noded.get()};
+  if (const auto faces = geos.own(GEOSPolygonize_r(geos.handle(), parts, 1))) geos.collect(faces.get(), out);
+  for (Polygon& face : out)
+    for (size_t r = 0; r < face.rings.size(); ++r) wind(face.rings[r], r == 0);
+  return out;
+}
+
 std::vector<uint32_t> cornersOf(std::span<const glm::dvec2> ring, std::span<const uint8_t> group, double tolerance) {
   const auto n = static_cast<uint32_t>(ring.size());
   std::vector<uint32_t> all(n);

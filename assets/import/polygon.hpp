@@ -46,6 +46,10 @@ constexpr double kSmallestArea = 0.1;
 /// should lie within a few kilometres of (0, 0).
 CleanedPolygons cleanPolygon(const Polygon& raw);
 
+/// The faces that lines cut the plan into (GEOS: union, then polygonize): each with its holes, counter-clockwise. Lines
+/// are open unless their last point is their first.
+std::vector<Polygon> polygonise(std::span<const Ring> lines);
+
 /// Corners of the ring that matter: points nearer than `tolerance` metres to the line between their kept neighbours are
 /// dropped where `group` (one value for the edge after each point) is the same on both sides. At least three remain, or
 /// the ring is returned as it came. Indices into the ring, ascending.

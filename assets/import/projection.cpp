@@ -55,6 +55,21 @@ std::string epsgCode(const std::string& text) {
   return digits && version ? std::string(code) : std::string();
 }
 
+/// What a person or a file calls a CRS; nothing where it is not known.
+std::optional<OGRSpatialReference> fromText(const std::string& text) {
+  constexpr size_t kLongest = 100000;
+  if (text.empty() || text.size() > kLongest) return std::nullopt;
+  const std::string code = epsgCode(text);
+  const std::string name = code.empty() ? text : "EPSG:" + code;
+  OGRSpatialReference crs;
+  static constexpr const char* kOptions[] = {"ALLOW_NETWORK_ACCESS=NO", "ALLOW_FILE_ACCESS=NO", nullptr};
+  CPLPushErrorHandler(CPLQuietErrorHandler);  // that it is not known is this function's answer, not a message
+  const bool known = crs.SetFromUserInput(name.c_str(), kOptions) == OGRERR_NONE;
+  CPLPopErrorHandler();
+  if (!known) return std::nullopt;
+  return crs;
+}
+
 struct DestroyTransformation {
   void operator()(OGRCoordinateTransformation* t) const { OGRCoordinateTransformation::DestroyCT(t); }
 };
@@ -63,16 +78,24 @@ using Transformation = std::unique_ptr<OGRCoordinateTransformation, DestroyTrans
 }  // namespace
 
 std::string crsFromText(const std::string& text) {
-  const std::string code = epsgCode(text);
-  const std::string name = code.empty() ? text : "EPSG:" + code;
-  OGRSpatialReference crs;
-  static constexpr const char* kOptions[] = {"ALLOW_NETWORK_ACCESS=NO", "ALLOW_FILE_ACCESS=NO", nullptr};
-  CPLPushErrorHandler(CPLQuietErrorHandler);  // that it is not known is this function's answer, not a message
-  const bool known = !name.empty() && crs.SetFromUserInput(name.c_str(), kOptions) == OGRERR_NONE;
-  CPLPopErrorHandler();
-  if (!known) return {};
-  crs.StripVertical();
-  return toWkt(crs);
+  std::optional<OGRSpatialReference> crs = fromText(text);
+  if (!crs) return {};
+  crs->StripVertical();
+  return toWkt(*crs);
+}
+
+std::optional<double> verticalUnitOf(const std::string& text) {
+  const std::optional<OGRSpatialReference> crs = fromText(text);
+  if (!crs || !crs->IsVertical()) return std::nullopt;
+  const double unit = crs->GetTargetLinearUnits("VERT_CS");
+  return unit > 0 ? unit : 1;
+}
+
+double heightUnitOf(const std::string& text) {
+  if (const auto vertical = verticalUnitOf(text)) return *vertical;
+  const std::optional<OGRSpatialReference> crs = fromText(text);
+  if (!crs) return 1;
+  return crs->IsProjected() && crs->GetLinearUnits() > 0 ? crs->GetLinearUnits() : 1;
 }
 
 CrsKind kindOf(const std::string& wkt) {

@@ -12,6 +12,13 @@ namespace vicus::assets {
 /// Empty where it cannot be understood. Reads no file and no network.
 std::string crsFromText(const std::string& text);
 
+/// Metres for each unit of the heights in a CRS given as text: that of its vertical part, else of its axes where it is
+/// projected, else 1 (also where it is not known).
+double heightUnitOf(const std::string& text);
+
+/// Metres for each unit of the vertical part of a CRS given as text; nothing where it has none.
+std::optional<double> verticalUnitOf(const std::string& text);
+
 struct CrsKind {
   bool known = false;
   bool geographic = false;   ///< degrees

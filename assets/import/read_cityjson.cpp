@@ -1,4 +1,4 @@
-// Based on: CityJSON specifications 1.0, 1.1 and 2.0 (cityjson.org/specs).
+// Based on: CityJSON specifications 1.0, 1.1 and 2.0 and CityJSON text sequences (cityjson.org/specs).
 #include "assets/import/read_cityjson.hpp"
 
 #include <algorithm>
@@ -9,84 +9,62 @@
 #include <set>
 #include <unordered_map>
 
+#include "assets/import/cityjson_geometry.hpp"
 #include "assets/import/columns.hpp"
+#include "assets/import/parallel.hpp"
 #include "assets/import/projection.hpp"
 
 namespace vicus::assets {
 namespace {
 
-using Json = nlohmann::json;
+using cityjson::Geometry;
+using cityjson::Json;
+using cityjson::member;
+using cityjson::shown;
+using cityjson::textOf;
 
-/// A member of an object; null where there is none.
-const Json& member(const Json& object, const char* name) {
-  static const Json kNull;
-  if (!object.is_object()) return kNull;
-  const auto found = object.find(name);
-  return found == object.end() ? kNull : *found;
-}
-
-std::string textOf(const Json& value) {
-  return value.is_string() ? value.get<std::string>() : std::string();
-}
-
-/// What of an object is a building, and what is not in the city.
-enum class Role { Building, Part, Terrain, LeftOut, Unknown };
+/// What of an object is in the city.
+enum class Role { Building, Part, Terrain, Water, Cover, Tree, LeftOut, Unknown };
 
 Role roleOf(const std::string& type) {
   static const std::map<std::string, Role> kRoles = {{"Building", Role::Building},
                                                      {"BuildingPart", Role::Part},
                                                      {"BuildingInstallation", Role::Part},
+                                                     {"BuildingConstructiveElement", Role::Part},
                                                      {"OtherConstruction", Role::Building},
-                                                     {"TINRelief", Role::Terrain}};
-  static const std::set<std::string> kOthers = {"Bridge",
-                                                "BridgePart",
-                                                "BridgeInstallation",
-                                                "BridgeConstructionElement",
-                                                "BridgeConstructiveElement",
-                                                "BridgeRoom",
-                                                "BridgeFurniture",
-                                                "BuildingConstructiveElement",
-                                                "BuildingFurniture",
-                                                "BuildingRoom",
-                                                "BuildingStorey",
-                                                "BuildingUnit",
-                                                "CityFurniture",
-                                                "CityObjectGroup",
-                                                "GenericCityObject",
-                                                "LandUse",
-                                                "PlantCover",
-                                                "Railway",
-                                                "Road",
-                                                "SolitaryVegetationObject",
-                                                "TransportSquare",
-                                                "TransportationSquare",
-                                                "Tunnel",
-                                                "TunnelPart",
-                                                "TunnelInstallation",
-                                                "TunnelConstructiveElement",
-                                                "TunnelHollowSpace",
-                                                "TunnelFurniture",
-                                                "WaterBody",
-                                                "Waterway"};
+                                                     {"GenericCityObject", Role::Building},
+                                                     {"Bridge", Role::Building},
+                                                     {"BridgePart", Role::Part},
+                                                     {"BridgeInstallation", Role::Part},
+                                                     {"BridgeConstructionElement", Role::Part},
+                                                     {"BridgeConstructiveElement", Role::Part},
+                                                     {"Tunnel", Role::Building},
+                                                     {"TunnelPart", Role::Part},
+                                                     {"TunnelInstallation", Role::Part},
+                                                     {"TunnelConstructiveElement", Role::Part},
+                                                     {"TINRelief", Role::Terrain},
+                                                     {"WaterBody", Role::Water},
+                                                     {"Waterway", Role::Water},
+                                                     {"Road", Role::Cover},
+                                                     {"Railway", Role::Cover},
+                                                     {"TransportSquare", Role::Cover},
+                                                     {"TransportationSquare", Role::Cover},
+                                                     {"PlantCover", Role::Cover},
+                                                     {"LandUse", Role::Cover},
+                                                     {"SolitaryVegetationObject", Role::Tree}};
+  static const std::set<std::string> kOthers = {
+      "BridgeRoom",   "BridgeFurniture", "BuildingFurniture", "BuildingRoom",    "BuildingStorey",
+      "BuildingUnit", "CityFurniture",   "CityObjectGroup",   "TunnelFurniture", "TunnelHollowSpace"};
   const auto found = kRoles.find(type);
   if (found != kRoles.end()) return found->second;
   return kOthers.contains(type) ? Role::LeftOut : Role::Unknown;
 }
 
-SurfaceKind kindOfSemantics(const std::string& type) {
-  static const std::map<std::string, SurfaceKind> kKinds = {{"WallSurface", SurfaceKind::Wall},
-                                                            {"RoofSurface", SurfaceKind::Roof},
-                                                            {"GroundSurface", SurfaceKind::Ground},
-                                                            {"Window", SurfaceKind::Window},
-                                                            {"Door", SurfaceKind::Door},
-                                                            {"ClosureSurface", SurfaceKind::Other},
-                                                            {"OuterCeilingSurface", SurfaceKind::Other},
-                                                            {"OuterFloorSurface", SurfaceKind::Other},
-                                                            {"InteriorWallSurface", SurfaceKind::Other},
-                                                            {"CeilingSurface", SurfaceKind::Other},
-                                                            {"FloorSurface", SurfaceKind::Other}};
-  const auto found = kKinds.find(type);
-  return found == kKinds.end() ? SurfaceKind::Unknown : found->second;
+city::Ground coverOf(const std::string& type) {
+  if (type == "PlantCover") return city::Ground::Garden;
+  if (type == "LandUse") return city::Ground::Grass;
+  if (type == "Railway") return city::Ground::Earth;
+  return type == "Road" ? city::Ground::Street : city::Ground::Paving;
 }
 
 /// Scalars of nested attributes, "roof.type.value".
@@ -130,41 +108,40 @@ double heightIn(const city::Attributes& attributes, const std::string& column) {
   return storeys * (storey > 0 ? storey : kStoreyHeight);
 }
 
-/// One object's geometry at one level of detail.
-struct Geometry {
-  double lod = 0;
-  std::vector<Surface> surfaces;  ///< indices into the file's vertices
-  bool footprint() const { return lod < 1; }
-};
-
 class Reader {
  public:
-  Reader(const Json& root, const std::string& file, const std::string& heightColumn, city::Diagnostics& diagnostics)
-      : root_(root), file_(file), heightColumn_(heightColumn), diagnostics_(diagnostics) {}
+  Reader(const Json& root, const Json& header, const std::string& file, const CityJsonOptions& options,
+         city::Diagnostics& diagnostics)
+      : root_(root),
+        header_(header),
+        file_(file),
+        options_(options),
+        diagnostics_(diagnostics),
+        shapes_(root, header, file,
+                [this](const std::string& id, const std::string& message) { complain(id, message); }) {}
 
   Source read();
 
  private:
-  bool readVertices();
-  std::string readCrs() const;
+  void readCrs(Source& source) const;
+  void findFamilies();
   /// The root of the family that an object belongs to.
   std::string ancestorOf(const std::string& id) const;
   std::vector<Geometry> geometriesOf(const std::string& id, const Json& object);
-  std::optional<Geometry> readGeometry(const std::string& id, const Json& geometry);
-  void readSurfaces(const std::string& id, const Json& boundaries, const Json& values, int depth, uint32_t& shell,
-                    const std::vector<SurfaceKind>& kinds, std::vector<Surface>& out);
-  std::optional<Surface> readSurface(const std::string& id, const Json& rings);
   void addFamily(const std::string& id, const std::vector<std::string>& members, Source& source);
   void addTerrain(const std::string& id, const Json& object, Tin& tin);
+  void addArea(const std::string& id, const Json& object, Role role, Source& source);
+  void addTree(const std::string& id, const Json& object, Source& source);
   void complain(const std::string& id, const std::string& message);
 
   const Json& root_;
+  const Json& header_;
   const std::string& file_;
-  const std::string& heightColumn_;
+  const CityJsonOptions& options_;
   city::Diagnostics& diagnostics_;
-  std::vector<glm::dvec3> vertices_;
-  std::map<std::string, std::string> parentOf_;
   std::set<std::string> complained_;
+  std::map<std::string, std::string> parentOf_;
+  cityjson::GeometryReader shapes_;
 };
 
 /// One message for each object is enough: the first.
@@ -172,55 +149,17 @@ void Reader::complain(const std::string& id, const std::string& message) {
   if (complained_.insert(id).second) diagnostics_.error(file_, id, message);
 }
 
-bool Reader::readVertices() {
-  const Json& list = member(root_, "vertices");
-  if (!list.is_array()) {
-    diagnostics_.error(file_, "vertices", "there is no list of vertices");
-    return false;
-  }
-  glm::dvec3 scale(1), translate(0);
-  const Json& transform = member(root_, "transform");
-  for (const auto& [name, target] : {std::pair("scale", &scale), std::pair("translate", &translate)}) {
-    const Json& values = member(transform, name);
-    if (values.is_null()) continue;
-    bool good = values.is_array() && values.size() == 3;
-    for (int k = 0; good && k < 3; ++k) {
-      good = values[static_cast<size_t>(k)].is_number();
-      if (good) (*target)[k] = values[static_cast<size_t>(k)].get<double>();
-    }
-    if (!good) {
-      diagnostics_.error(file_, std::string("transform ") + name, "is not three numbers");
-      return false;
-    }
-  }
-  size_t bad = 0, firstBad = 0;
-  vertices_.reserve(list.size());
-  for (size_t i = 0; i < list.size(); ++i) {
-    const Json& v = list[i];
-    glm::dvec3 p(kUnknown);
-    if (v.is_array() && v.size() >= 3 && v[0].is_number() && v[1].is_number() && v[2].is_number())
-      p = glm::dvec3(v[0].get<double>(), v[1].get<double>(), v[2].get<double>()) * scale + translate;
-    if (!std::isfinite(p.x + p.y + p.z)) {
-      p = glm::dvec3(kUnknown);
-      if (bad++ == 0) firstBad = i;
-    }
-    vertices_.push_back(p);
-  }
-  if (bad > 0)
-    diagnostics_.error(file_, "vertex " + std::to_string(firstBad),
-                       "is not three numbers" + (bad > 1 ? ", nor are " + std::to_string(bad - 1) + " more" : ""));
-  return true;
-}
-
-std::string Reader::readCrs() const {
-  const Json& metadata = member(root_, "metadata");
+void Reader::readCrs(Source& source) const {
+  const Json& own = member(root_, "metadata");
+  const Json& metadata = own.is_null() ? member(header_, "metadata") : own;
   std::string name = textOf(member(metadata, "referenceSystem"));
   if (const Json& epsg = member(member(metadata, "crs"), "epsg"); name.empty() && epsg.is_number_integer())
     name = "EPSG:" + std::to_string(epsg.get<int64_t>());
-  if (name.empty()) return {};
-  const std::string crs = crsFromText(name);
-  if (crs.empty()) diagnostics_.error(file_, "metadata", "the CRS " + name + " is not known; give one with --crs");
-  return crs;
+  if (name.empty()) return;
+  source.crs = crsFromText(name);
+  source.zUnit = heightUnitOf(name);
+  if (source.crs.empty())
+    diagnostics_.error(file_, "metadata", "the CRS " + name.substr(0, 80) + " is not known; give one with --crs");
 }
 
 std::string Reader::ancestorOf(const std::string& id) const {
@@ -233,101 +172,17 @@ std::string Reader::ancestorOf(const std::string& id) const {
   return id;
 }
 
-std::optional<Surface> Reader::readSurface(const std::string& id, const Json& rings) {
-  if (!rings.is_array()) {
-    complain(id, "a surface is not a list of rings");
-    return std::nullopt;
-  }
-  Surface surface;
-  for (const Json& ring : rings) {
-    if (!ring.is_array()) {
-      complain(id, "a ring is not a list of vertices");
-      return std::nullopt;
-    }
-    std::vector<uint32_t>& out = surface.rings.emplace_back();
-    for (const Json& index : ring) {
-      const int64_t i = index.is_number_integer() ? index.get<int64_t>() : -1;
-      if (i < 0 || i >= static_cast<int64_t>(vertices_.size())) {
-        complain(id, "vertex index " + index.dump() + " is out of range (0 to " +
-                         std::to_string(static_cast<int64_t>(vertices_.size()) - 1) +
-                         "); surfaces with it are left out");
-        return std::nullopt;
-      }
-      if (std::isnan(vertices_[static_cast<size_t>(i)].x)) {
-        complain(id, "vertex " + std::to_string(i) + " is not three numbers; surfaces with it are left out");
-        return std::nullopt;
-      }
-      out.push_back(static_cast<uint32_t>(i));
-    }
-  }
-  if (surface.rings.empty() || surface.rings[0].size() < 3) {
-    complain(id, "a surface has fewer than three vertices");
-    return std::nullopt;
-  }
-  return surface;
-}
-
-/// `depth` 0: boundaries are surfaces; 1: shells of a solid, of which the first bounds it; 2: solids.
-void Reader::readSurfaces(const std::string& id, const Json& boundaries, const Json& values, int depth, uint32_t& shell,
-                          const std::vector<SurfaceKind>& kinds, std::vector<Surface>& out) {
-  if (!boundaries.is_array()) {
-    complain(id, "its boundaries are nested less deeply than its type says");
-    return;
-  }
-  const auto valueAt = [&](size_t i) -> const Json& {
-    static const Json kNull;
-    return values.is_array() && i < values.size() ? values[i] : kNull;
-  };
-  if (depth > 0) {
-    const size_t count = depth == 1 ? std::min<size_t>(boundaries.size(), 1) : boundaries.size();
-    for (size_t i = 0; i < count; ++i) readSurfaces(id, boundaries[i], valueAt(i), depth - 1, shell, kinds, out);
-    return;
-  }
-  for (size_t i = 0; i < boundaries.size(); ++i) {
-    std::optional<Surface> surface = readSurface(id, boundaries[i]);
-    if (!surface) continue;
-    const Json& value = valueAt(i);
-    if (value.is_number_unsigned() && value.get<uint64_t>() < kinds.size())
-      surface->kind = kinds[value.get<uint64_t>()];
-    surface->shell = shell;
-    out.push_back(std::move(*surface));
-  }
-  ++shell;
-}
-
-std::optional<Geometry> Reader::readGeometry(const std::string& id, const Json& geometry) {
-  const std::string type = textOf(member(geometry, "type"));
-  static const std::map<std::string, int> kDepths = {
-      {"MultiSurface", 0}, {"CompositeSurface", 0}, {"Solid", 1}, {"MultiSolid", 2}, {"CompositeSolid", 2}};
-  const auto depth = kDepths.find(type);
-  if (depth == kDepths.end()) {
-    const bool known = type == "MultiPoint" || type == "MultiLineString" || type == "GeometryInstance";
-    if (!known) complain(id, "the geometry type " + (type.empty() ? "is missing" : type + " is not known"));
-    return std::nullopt;
-  }
-  Geometry out;
-  const Json& lod = member(geometry, "lod");
-  out.lod = lod.is_number() ? lod.get<double>() : lod.is_string() ? numberIn(lod.get<std::string>()) : 1;
-  if (!std::isfinite(out.lod)) out.lod = 1;
-  std::vector<SurfaceKind> kinds;
-  const Json& semantics = member(geometry, "semantics");
-  if (const Json& list = member(semantics, "surfaces"); list.is_array())
-    for (const Json& s : list) kinds.push_back(kindOfSemantics(textOf(member(s, "type"))));
-  uint32_t shell = 0;
-  readSurfaces(id, member(geometry, "boundaries"), member(semantics, "values"), depth->second, shell, kinds,
-               out.surfaces);
-  return out;
-}
-
-/// All that can be used, the highest level of detail first.
+/// All that can be used, the wanted level of detail first: the highest, or the highest that is no finer than what the
+/// user asks for, then coarser ones, then finer ones.
 std::vector<Geometry> Reader::geometriesOf(const std::string& id, const Json& object) {
   std::vector<Geometry> out;
   const Json& list = member(object, "geometry");
   if (!list.is_array()) return out;
   for (const Json& g : list)
-    if (auto geometry = readGeometry(id, g); geometry && !geometry->surfaces.empty())
+    if (auto geometry = shapes_.read(id, g); geometry && !geometry->surfaces.empty())
       out.push_back(std::move(*geometry));
-  std::stable_sort(out.begin(), out.end(), [](const Geometry& a, const Geometry& b) { return a.lod > b.lod; });
+  const auto rank = [&](const Geometry& g) { return g.lod <= options_.lod + 1e-6 ? g.lod : -1 - g.lod; };
+  std::stable_sort(out.begin(), out.end(), [&](const Geometry& a, const Geometry& b) { return rank(a) > rank(b); });
   return out;
 }
 
@@ -346,20 +201,22 @@ void Reader::addFamily(const std::string& id, const std::vector<std::string>& me
     } else {
       city::Attributes own;
       flatten(member(object, "attributes"), "", 0, own);
-      const double h = heightIn(own, heightColumn_);
+      const double h = heightIn(own, options_.heightColumn);
       if (h > 0 && !(partHeight >= h)) partHeight = h;
     }
-    const std::vector<Geometry> geometries = geometriesOf(m, object);
+    std::vector<Geometry> geometries = geometriesOf(m, object);
+    std::erase_if(geometries, [](const Geometry& g) { return g.points; });
     if (geometries.empty()) continue;
+    const std::vector<glm::dvec3>& vertices = shapes_.vertices();
     const Geometry& best = geometries.front();
-    if (best.footprint()) {
+    if (best.lod < 1) {
       for (const Surface& s : best.surfaces) {
-        Polygon& polygon = footprint.parts.emplace_back();
+        Polygon& polygon = footprint.parts.emplace_back().polygon;
         for (const auto& ring : s.rings) {
           Ring& out = polygon.rings.emplace_back();
           for (const uint32_t i : ring) {
-            out.emplace_back(vertices_[i]);
-            lowest = std::isnan(lowest) ? vertices_[i].z : std::min(lowest, vertices_[i].z);
+            out.emplace_back(vertices[i]);
+            lowest = std::isnan(lowest) ? vertices[i].z : std::min(lowest, vertices[i].z);
           }
         }
       }
@@ -372,7 +229,7 @@ void Reader::addFamily(const std::string& id, const std::vector<std::string>& me
       for (auto& ring : s.rings)
         for (uint32_t& i : ring) {
           const auto [found, isNew] = localIndex.emplace(i, static_cast<uint32_t>(building.points.size()));
-          if (isNew) building.points.push_back(vertices_[i]);
+          if (isNew) building.points.push_back(vertices[i]);
           i = found->second;
         }
       building.surfaces.push_back(std::move(s));
@@ -386,7 +243,7 @@ void Reader::addFamily(const std::string& id, const std::vector<std::string>& me
     source.buildings.push_back(std::move(building));
   } else if (!footprint.parts.empty()) {
     footprint.id = id;
-    footprint.height = heightIn(attributes, heightColumn_);
+    footprint.height = heightIn(attributes, options_.heightColumn);
     if (!(footprint.height > 0)) footprint.height = partHeight;
     footprint.ground = lowest;
     footprint.attributes = std::move(attributes);
@@ -399,14 +256,14 @@ void Reader::addFamily(const std::string& id, const std::vector<std::string>& me
 
 void Reader::addTerrain(const std::string& id, const Json& object, Tin& tin) {
   const std::vector<Geometry> geometries = geometriesOf(id, object);
-  if (geometries.empty()) {
+  if (geometries.empty() || geometries.front().points) {
     complain(id, "the terrain has no triangles");
     return;
   }
   std::unordered_map<uint32_t, uint32_t> index;
   const auto point = [&](uint32_t i) {
     const auto [found, isNew] = index.emplace(i, static_cast<uint32_t>(tin.points.size()));
-    if (isNew) tin.points.push_back(vertices_[i]);
+    if (isNew) tin.points.push_back(shapes_.vertices()[i]);
     return found->second;
   };
   for (const Surface& s : geometries.front().surfaces) {
@@ -416,25 +273,44 @@ void Reader::addTerrain(const std::string& id, const Json& object, Tin& tin) {
   }
 }
 
-Source Reader::read() {
-  Source source;
-  source.file = file_;
-  source.metric = true;
-  const std::string version = textOf(member(root_, "version"));
-  if (!(version.starts_with("1.") || version.starts_with("2.")))
-    diagnostics_.warn(
-        file_, "version",
-        (version.empty() ? std::string("none is stated") : version + " is older or newer than 1.0 to 2.0") +
-            "; read as far as it agrees with these");
-  const Json& objects = member(root_, "CityObjects");
-  if (!objects.is_object()) {
-    diagnostics_.error(file_, "CityObjects", "there are no city objects");
-    return source;
+/// Water, roads and plants: their surfaces on the plan.
+void Reader::addArea(const std::string& id, const Json& object, Role role, Source& source) {
+  std::vector<Polygon> parts;
+  for (const Geometry& g : geometriesOf(id, object)) {
+    if (g.points) continue;
+    for (const Surface& s : g.surfaces) {
+      Polygon& polygon = parts.emplace_back();
+      for (const auto& ring : s.rings) {
+        Ring& out = polygon.rings.emplace_back();
+        for (const uint32_t i : ring) out.emplace_back(shapes_.vertices()[i]);
+      }
+    }
+    break;
   }
-  if (!readVertices()) return source;
-  source.crs = readCrs();
+  if (parts.empty()) return;
+  if (role == Role::Water)
+    source.surroundings.water.push_back({id, std::move(parts)});
+  else
+    source.surroundings.cover.push_back({coverOf(textOf(member(object, "type"))), std::move(parts)});
+}
 
-  // Who belongs to whom, by what the children say or else the parents.
+/// A tree in the middle of its geometry, as high as that.
+void Reader::addTree(const std::string& id, const Json& object, Source& source) {
+  for (const Geometry& g : geometriesOf(id, object)) {
+    city::Aabb box;
+    for (const Surface& s : g.surfaces)
+      for (const auto& ring : s.rings)
+        for (const uint32_t i : ring) box.extend(shapes_.vertices()[i]);
+    if (box.empty()) continue;
+    const double height = box.size().z;
+    source.surroundings.trees.push_back({glm::dvec2(box.centre()), height > 0.5 ? height : kUnknown, false});
+    return;
+  }
+}
+
+/// Who belongs to whom, by what the children say or else the parents.
+void Reader::findFamilies() {
+  const Json& objects = member(root_, "CityObjects");
   for (const auto& [id, object] : objects.items()) {
     const Json& parents = member(object, "parents");
     if (parents.is_array() && !parents.empty() && parents[0].is_string()) {
@@ -449,11 +325,28 @@ Source Reader::read() {
         if (child.is_string() && objects.contains(child.get<std::string>()))
           parentOf_.emplace(child.get<std::string>(), id);
   }
+}
+
+Source Reader::read() {
+  Source source;
+  source.file = file_;
+  source.metric = true;
+  const Json& objects = member(root_, "CityObjects");
+  if (!objects.is_object()) {
+    diagnostics_.error(file_, "CityObjects", "there are no city objects");
+    return source;
+  }
+  if (!shapes_.readVertices(diagnostics_)) return source;
+  shapes_.readAppearance(diagnostics_);
+  readCrs(source);
+  findFamilies();
+
   std::map<std::string, std::vector<std::string>> families;
   std::map<std::string, uint64_t> leftOut, unknown;
   for (const auto& [id, object] : objects.items()) {
     const std::string type = textOf(member(object, "type"));
-    switch (roleOf(type)) {
+    const Role role = roleOf(type);
+    switch (role) {
       case Role::Unknown:
         if (type.empty()) {
           complain(id, "it has no type");
@@ -470,15 +363,23 @@ Source Reader::read() {
       case Role::Terrain:
         addTerrain(id, object, source.tin);
         break;
+      case Role::Water:
+      case Role::Cover:
+        addArea(id, object, role, source);
+        break;
+      case Role::Tree:
+        addTree(id, object, source);
+        break;
       case Role::LeftOut:
         ++leftOut[type];
         break;
     }
   }
   for (const auto& [id, members] : families) addFamily(id, members, source);
+  source.materials = shapes_.materials();
   for (const auto& [type, count] : unknown)
     diagnostics_.warn(file_, "",
-                      std::to_string(count) + " objects of the type " + type +
+                      std::to_string(count) + " objects of the type " + type.substr(0, 40) +
                           ", which the standard does not know, taken as buildings");
   for (const auto& [type, count] : leftOut)
     diagnostics_.leftOut.push_back({type, count, "objects of this type are not shown"});
@@ -486,17 +387,131 @@ Source Reader::read() {
 }
 
 /// "line 3, column 17" of a byte.
-std::string lineAndColumn(std::string_view text, size_t byte) {
+std::string lineAndColumn(std::string_view text, size_t byte, size_t firstLine = 1) {
   byte = std::min(byte, text.size());
-  const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(byte), '\n') + 1;
+  const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(byte), '\n') +
+                    static_cast<std::ptrdiff_t>(firstLine);
   const size_t start = byte == 0 ? std::string_view::npos : text.rfind('\n', byte - 1);
   const size_t column = byte - (start == std::string_view::npos ? 0 : start + 1);
   return "line " + std::to_string(line) + ", column " + std::to_string(column);
 }
 
+/// The JSON of a text; nothing, with a message, where it is none. `firstLine` is the line of the file that it begins
+/// in.
+std::optional<Json> parse(std::string_view text, const std::string& file, size_t firstLine,
+                          city::Diagnostics& diagnostics) {
+  const auto refuse = [&](size_t byte, std::string what) {
+    if (const size_t at = what.find("; last read"); at != std::string::npos) what = what.substr(0, at);
+    if (const size_t at = what.rfind(": "); at != std::string::npos) what = what.substr(at + 2);
+    diagnostics.error(file, lineAndColumn(text, byte, firstLine), "this is not JSON: " + what);
+    return std::nullopt;
+  };
+  try {
+    return Json::parse(text);
+  } catch (const Json::parse_error& e) {
+    return refuse(e.byte, e.what());
+  } catch (const Json::exception& e) {
+    return refuse(0, e.what());
+  }
+}
+
+void checkVersion(const Json& root, const std::string& file, city::Diagnostics& diagnostics) {
+  const std::string version = textOf(member(root, "version"));
+  if (!(version.starts_with("1.") || version.starts_with("2.")))
+    diagnostics.warn(file, "version",
+                     (version.empty() ? std::string("none is stated")
+                                      : version.substr(0, 40) + " is older or newer than 1.0 to 2.0") +
+                         "; read as far as it agrees with these");
+}
+
+/// Adds the content of one feature of a sequence to that of those before it.
+void append(Source& whole, Source&& part) {
+  const auto base = static_cast<uint32_t>(whole.materials.size());
+  // Most features have no appearance of their own: then all share the header's.
+  const bool same = part.materials == whole.materials;
+  if (!same) {
+    for (SurfaceBuilding& b : part.buildings)
+      for (Surface& s : b.surfaces)
+        if (s.material != kNoMaterial) s.material += base;
+    whole.materials.insert(whole.materials.end(), part.materials.begin(), part.materials.end());
+  }
+  const auto move = [](auto& to, auto& from) {
+    to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+  };
+  move(whole.buildings, part.buildings);
+  move(whole.footprints, part.footprints);
+  move(whole.surroundings.water, part.surroundings.water);
+  move(whole.surroundings.cover, part.surroundings.cover);
+  move(whole.surroundings.trees, part.surroundings.trees);
+  const auto firstPoint = static_cast<uint32_t>(whole.tin.points.size());
+  move(whole.tin.points, part.tin.points);
+  for (const glm::uvec3& t : part.tin.triangles) whole.tin.triangles.push_back(t + firstPoint);
+}
+
+/// Entries of what was left out that say the same, added up.
+struct LeftOutSum {
+  city::LeftOut entry;
+  uint64_t count = 0;
+};
+
+/// A text sequence: a header, then one feature on each line.
+Source readSequence(const Json& header, std::string_view rest, const std::string& file, const CityJsonOptions& options,
+                    city::Diagnostics& diagnostics) {
+  std::vector<std::pair<size_t, std::string_view>> lines;  // number and text
+  size_t number = 1;
+  while (!rest.empty()) {
+    const size_t end = std::min(rest.find('\n'), rest.size());
+    ++number;
+    if (rest.substr(0, end).find_first_not_of(" \t\r\x1e") != std::string_view::npos)
+      lines.emplace_back(number, rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  std::vector<Source> parts(lines.size());
+  std::vector<city::Diagnostics> said(lines.size());
+  parallelFor(lines.size(), 8, [&](size_t i) {
+    const auto& [line, text] = lines[i];
+    const auto root = parse(text, file, line, said[i]);
+    if (!root) return;
+    if (textOf(member(*root, "type")) != "CityJSONFeature") {
+      said[i].error(file, "line " + std::to_string(line), "this is no CityJSONFeature");
+      return;
+    }
+    if (const std::string id = textOf(member(*root, "id")); !id.empty() && !member(*root, "CityObjects").contains(id))
+      said[i].warn(file, "line " + std::to_string(line),
+                   "the feature " + shown(member(*root, "id")) + " has no object of that name");
+    parts[i] = Reader(*root, header, file, options, said[i]).read();
+  });
+  // Objects of the header's own, in older files.
+  city::Diagnostics quiet;
+  Source whole = Reader(header, header, file, options, lines.empty() ? diagnostics : quiet).read();
+  std::map<std::string, LeftOutSum> leftOut;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    for (city::Diagnostic& m : said[i].messages) {
+      // What the header says is said once.
+      const bool again =
+          std::any_of(diagnostics.messages.begin(), diagnostics.messages.end(),
+                      [&](const city::Diagnostic& d) { return d.place == m.place && d.message == m.message; });
+      constexpr size_t kMost = 1000;
+      if (!again && diagnostics.messages.size() < kMost) diagnostics.messages.push_back(std::move(m));
+    }
+    for (city::LeftOut& l : said[i].leftOut) {
+      LeftOutSum& sum = leftOut[l.what + "\n" + l.why];
+      sum.entry = l;
+      sum.count += l.count;
+    }
+    append(whole, std::move(parts[i]));
+  }
+  for (auto& [key, sum] : leftOut) {
+    sum.entry.count = sum.count;
+    diagnostics.leftOut.push_back(std::move(sum.entry));
+  }
+  return whole;
+}
+
 }  // namespace
 
 bool isCityJson(std::string_view text) {
+  if (text.find("\"CityJSONFeature\"") != std::string_view::npos) return true;
   // The member may stand anywhere at the top level, and before or after megabytes of others.
   for (size_t at = text.find("\"CityJSON\""); at != std::string_view::npos; at = text.find("\"CityJSON\"", at + 1)) {
     size_t before = at;
@@ -514,25 +529,25 @@ bool isCityJson(std::string_view text) {
   return false;
 }
 
-Source readCityJson(std::string_view text, const std::string& file, const std::string& heightColumn,
+Source readCityJson(std::string_view text, const std::string& file, const CityJsonOptions& options,
                     city::Diagnostics& diagnostics) {
   Source source;
   source.file = file;
-  Json root;
-  try {
-    root = Json::parse(text);
-  } catch (const Json::parse_error& e) {
-    std::string what = e.what();
-    if (const size_t at = what.find("; last read"); at != std::string::npos) what = what.substr(0, at);
-    if (const size_t at = what.rfind(": "); at != std::string::npos) what = what.substr(at + 2);
-    diagnostics.error(file, lineAndColumn(text, e.byte), "this is not JSON: " + what);
+  // The whole text, or else its first line with features after it.
+  const size_t lineEnd = std::min(text.find('\n'), text.size());
+  const bool sequence = text.find("\"CityJSONFeature\"", lineEnd) != std::string_view::npos;
+  const auto root = parse(sequence ? text.substr(0, lineEnd) : text, file, 1, diagnostics);
+  if (!root) return source;
+  if (textOf(member(*root, "type")) != "CityJSON") {
+    diagnostics.error(file, "type",
+                      textOf(member(*root, "type")) == "CityJSONFeature"
+                          ? "this is a feature without the line before it that says where it lies"
+                          : "this is not CityJSON");
     return source;
   }
-  if (textOf(member(root, "type")) != "CityJSON") {
-    diagnostics.error(file, "type", "this is not CityJSON");
-    return source;
-  }
-  return Reader(root, file, heightColumn, diagnostics).read();
+  checkVersion(*root, file, diagnostics);
+  if (sequence) return readSequence(*root, text.substr(std::min(lineEnd + 1, text.size())), file, options, diagnostics);
+  return Reader(*root, *root, file, options, diagnostics).read();
 }
 
 }  // namespace vicus::assets

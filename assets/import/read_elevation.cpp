@@ -68,13 +68,12 @@ std::optional<Placement> place(const ElevationRaster& raster, const std::string&
   return out;
 }
 
-/// Metres for each unit that a band says its heights are in.
-double metresPerUnit(GDALRasterBand& band) {
-  const std::string unit = band.GetUnitType();
-  if (unit == "ft" || unit == "foot" || unit == "feet" || unit == "Foot") return 0.3048;
-  if (unit == "US survey foot" || unit == "us-ft" || unit == "Foot_US" || unit == "ftUS") return 1200.0 / 3937.0;
-  if (unit == "cm") return 0.01;
-  return 1;
+/// Metres for each unit of a raster's heights: what the user says, else what its band says, else its vertical CRS, else
+/// 1.
+double unitOf(const ElevationRaster& raster) {
+  if (raster.metresPerUnit) return *raster.metresPerUnit;
+  const std::string stated = raster.dataset->GetRasterBand(1)->GetUnitType();
+  return stated.empty() ? raster.crsHeightUnit.value_or(1) : metresPerUnit(stated);
 }
 
 /// Warps one raster onto the field's samples; nothing where GDAL fails.
@@ -124,7 +123,7 @@ std::vector<float> warp(const ElevationRaster& raster, const std::string& toCrs,
   GDALRasterBand& band = *raster.dataset->GetRasterBand(1);
   int hasScale = FALSE, hasOffset = FALSE;
   const double scale = band.GetScale(&hasScale), offset = band.GetOffset(&hasOffset);
-  const double unit = metresPerUnit(band);
+  const double unit = unitOf(raster);
   out.resize(fromNorth.size());
   for (size_t row = 0; row < height; ++row)
     for (size_t column = 0; column < width; ++column) {
@@ -161,6 +160,18 @@ std::string percent(uint64_t part, size_t whole) {
 }
 
 }  // namespace
+
+double metresPerUnit(const std::string& unit) {
+  std::string lower;
+  for (const char c : unit) lower.push_back(c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c);
+  if (lower == "ft" || lower == "foot" || lower == "feet" || lower == "international foot") return 0.3048;
+  if (lower == "us survey foot" || lower == "us-ft" || lower == "foot_us" || lower == "ftus") return 1200.0 / 3937.0;
+  if (lower == "dm" || lower == "decimetre" || lower == "decimeter") return 0.1;
+  if (lower == "cm" || lower == "centimetre" || lower == "centimeter") return 0.01;
+  if (lower == "mm") return 0.001;
+  if (lower == "km") return 1000;
+  return 1;
+}
 
 std::string whyNoElevation(GDALDataset& dataset) {
   if (dataset.GetRasterCount() < 1) return "it has no raster band";

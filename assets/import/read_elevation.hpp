@@ -19,11 +19,16 @@ class GdalMessages;
 struct ElevationRaster {
   GDALDataset* dataset = nullptr;
   std::string file;
-  std::string crs;  ///< WKT; the file's own or what the user says; empty: unknown
+  std::string crs;                      ///< WKT; the file's own or what the user says; empty: unknown
+  std::optional<double> metresPerUnit;  ///< of its heights, where the user says it; else as the band says
+  std::optional<double> crsHeightUnit;  ///< metres for each unit of its vertical CRS, where it has one
 };
 
 /// Samples to a side that the height field of a raster may have: 2^14 + 1, 16 385² take 1 GB and ROAM as much again.
 constexpr int kLargestRaster = 16385;
+
+/// Metres for each unit of that name (m, metre, dm, cm, ft, us-ft, …); 1 for names that are not known.
+double metresPerUnit(const std::string& unit);
 
 /// Why a raster cannot hold heights (a picture, no place on the earth); empty where it can.
 std::string whyNoElevation(GDALDataset& dataset);

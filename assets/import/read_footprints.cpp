@@ -21,36 +21,6 @@ Ring readRing(const OGRLinearRing& line) {
   return ring;
 }
 
-/// Appends the polygons of a geometry; false where it has something that is no polygon.
-bool readPolygons(const OGRGeometry& geometry, std::vector<Polygon>& out) {
-  switch (wkbFlatten(geometry.getGeometryType())) {
-    case wkbPolygon:
-    case wkbTriangle: {
-      const OGRPolygon& p = *geometry.toPolygon();
-      if (!p.getExteriorRing()) return true;
-      Polygon polygon;
-      polygon.rings.push_back(readRing(*p.getExteriorRing()));
-      for (int i = 0; i < p.getNumInteriorRings(); ++i) polygon.rings.push_back(readRing(*p.getInteriorRing(i)));
-      out.push_back(std::move(polygon));
-      return true;
-    }
-    case wkbMultiPolygon:
-    case wkbGeometryCollection: {
-      bool all = true;
-      for (const OGRGeometry* part : *geometry.toGeometryCollection()) all = readPolygons(*part, out) && all;
-      return all;
-    }
-    case wkbCurvePolygon:
-    case wkbMultiSurface: {
-      const std::unique_ptr<OGRGeometry> straight(geometry.getLinearGeometry());
-      return straight && wkbFlatten(straight->getGeometryType()) != wkbFlatten(geometry.getGeometryType()) &&
-             readPolygons(*straight, out);
-    }
-    default:
-      return false;
-  }
-}
-
 /// The columns of a layer that matter here.
 struct Columns {
   std::vector<std::string> names;
@@ -135,6 +105,35 @@ double heightOf(const OGRFeature& feature, const Columns& columns) {
 
 }  // namespace
 
+bool readPolygons(const OGRGeometry& geometry, std::vector<Polygon>& out) {
+  switch (wkbFlatten(geometry.getGeometryType())) {
+    case wkbPolygon:
+    case wkbTriangle: {
+      const OGRPolygon& p = *geometry.toPolygon();
+      if (!p.getExteriorRing()) return true;
+      Polygon polygon;
+      polygon.rings.push_back(readRing(*p.getExteriorRing()));
+      for (int i = 0; i < p.getNumInteriorRings(); ++i) polygon.rings.push_back(readRing(*p.getInteriorRing(i)));
+      out.push_back(std::move(polygon));
+      return true;
+    }
+    case wkbMultiPolygon:
+    case wkbGeometryCollection: {
+      bool all = true;
+      for (const OGRGeometry* part : *geometry.toGeometryCollection()) all = readPolygons(*part, out) && all;
+      return all;
+    }
+    case wkbCurvePolygon:
+    case wkbMultiSurface: {
+      const std::unique_ptr<OGRGeometry> straight(geometry.getLinearGeometry());
+      return straight && wkbFlatten(straight->getGeometryType()) != wkbFlatten(geometry.getGeometryType()) &&
+             readPolygons(*straight, out);
+    }
+    default:
+      return false;
+  }
+}
+
 Source readFootprints(GDALDataset& dataset, const std::string& file, const FootprintColumns& wanted,
                       GdalMessages& messages, city::Diagnostics& diagnostics) {
   Source source;
@@ -142,7 +141,10 @@ Source readFootprints(GDALDataset& dataset, const std::string& file, const Footp
   const bool severalLayers = dataset.GetLayerCount() > 1;
   std::map<std::string, uint64_t> otherGeometry;
   uint64_t notBuildings = 0;
+  bool layerFound = wanted.layer.empty();
   for (OGRLayer* layer : dataset.GetLayers()) {
+    if (!wanted.layer.empty() && wanted.layer != layer->GetName()) continue;
+    layerFound = true;
     const OGRwkbGeometryType type = wkbFlatten(layer->GetGeomType());
     if (type == wkbNone || OGR_GT_IsSubClassOf(type, wkbPoint) || OGR_GT_IsSubClassOf(type, wkbCurve) ||
         type == wkbMultiPoint || OGR_GT_IsSubClassOf(type, wkbMultiCurve)) {
@@ -185,7 +187,10 @@ Source readFootprints(GDALDataset& dataset, const std::string& file, const Footp
       f.id = (severalLayers ? std::string(layer->GetName()) + " " : std::string()) + "feature " +
              std::to_string(feature->GetFID());
       const OGRGeometry* geometry = feature->GetGeometryRef();
-      if (geometry && !readPolygons(*geometry, f.parts) && f.parts.empty()) {
+      std::vector<Polygon> polygons;
+      const bool all = !geometry || readPolygons(*geometry, polygons);
+      for (Polygon& polygon : polygons) f.parts.emplace_back().polygon = std::move(polygon);
+      if (!all && f.parts.empty()) {
         ++otherGeometry[geometry->getGeometryName()];
         continue;
       }
@@ -202,6 +207,11 @@ Source readFootprints(GDALDataset& dataset, const std::string& file, const Footp
     }
     if (const std::string failure = messages.take(); !failure.empty())
       diagnostics.error(file, std::string("layer ") + layer->GetName(), failure);
+  }
+  if (!layerFound) {
+    std::string all;
+    for (OGRLayer* layer : dataset.GetLayers()) all += (all.empty() ? "" : ", ") + std::string(layer->GetName());
+    diagnostics.error(file, "", "there is no layer " + wanted.layer + "; the layers are " + all);
   }
   for (const auto& [name, count] : otherGeometry)
     diagnostics.leftOut.push_back({"features", count, "a " + name + " is no footprint"});

@@ -29,7 +29,9 @@ struct Face {
   SurfaceKind kind = SurfaceKind::Unknown;
   uint32_t shell = 0;
   std::vector<std::vector<uint32_t>> rings;
-  glm::dvec3 areaVector{0};  ///< normal times area, holes taken off
+  uint32_t material = kNoMaterial;
+  std::vector<std::vector<glm::vec2>> uvs;  ///< as the rings, or empty
+  glm::dvec3 areaVector{0};                 ///< normal times area, holes taken off
   glm::dvec3 normal{0, 0, 1};
   bool bothSides = false;
 };
@@ -60,16 +62,28 @@ std::vector<Face> facesOf(const SurfaceBuilding& building, std::vector<glm::dvec
   std::vector<Face> faces;
   for (const Surface& s : building.surfaces) {
     Face face;
-    face.kind = s.kind, face.shell = s.shell;
-    for (const auto& ring : s.rings) {
+    face.kind = s.kind, face.shell = s.shell, face.material = s.material;
+    const bool textured = !s.uvs.empty();
+    for (size_t r = 0; r < s.rings.size(); ++r) {
+      const std::vector<uint32_t>& ring = s.rings[r];
       std::vector<uint32_t> kept;
-      for (const uint32_t i : ring)
-        if (kept.empty() || kept.back() != merged[i]) kept.push_back(merged[i]);
-      while (kept.size() > 1 && kept.front() == kept.back()) kept.pop_back();
-      if (kept.size() >= 3)
+      std::vector<glm::vec2> uvs;
+      for (size_t k = 0; k < ring.size(); ++k) {
+        if (!kept.empty() && kept.back() == merged[ring[k]]) continue;
+        kept.push_back(merged[ring[k]]);
+        if (r < s.uvs.size() && k < s.uvs[r].size()) uvs.push_back(s.uvs[r][k]);
+      }
+      while (kept.size() > 1 && kept.front() == kept.back()) {
+        kept.pop_back();
+        if (!uvs.empty()) uvs.pop_back();
+      }
+      if (kept.size() >= 3) {
         face.rings.push_back(std::move(kept));
-      else if (face.rings.empty())
+        if (textured)
+          face.uvs.push_back(uvs.size() == face.rings.back().size() ? std::move(uvs) : std::vector<glm::vec2>());
+      } else if (face.rings.empty()) {
         break;
+      }
     }
     if (!face.rings.empty()) {
       face.areaVector = newell(points, face.rings[0]);
@@ -90,6 +104,7 @@ std::vector<Face> facesOf(const SurfaceBuilding& building, std::vector<glm::dvec
 
 void turn(Face& face) {
   for (auto& ring : face.rings) std::reverse(ring.begin(), ring.end());
+  for (auto& ring : face.uvs) std::reverse(ring.begin(), ring.end());
   face.areaVector = -face.areaVector, face.normal = -face.normal;
 }
 
@@ -170,6 +185,7 @@ SurfaceKind kindFrom(const Face& face, const std::vector<glm::dvec3>& points, do
 /// Triangles of a face: corners in space and in its own plane.
 struct Mesh {
   std::vector<glm::dvec3> positions;
+  std::vector<glm::vec2> uvs;  ///< the source's texture coordinates; empty where it gives none
   std::vector<uint32_t> triangles;
 };
 
@@ -194,15 +210,55 @@ Axes axesOf(const Face& face, const std::vector<glm::dvec3>& points) {
   return {u, glm::cross(face.normal, u)};
 }
 
+/// Texture coordinates over a face's plane: those of its own points where they are asked for, else those of the affine
+/// map that fits them best.
+class TextureMap {
+ public:
+  /// Pairs of a place in the plane (metres) and its texture coordinate; none: there is no texture.
+  TextureMap(std::vector<std::pair<glm::dvec2, glm::vec2>> known) : known_(std::move(known)) {
+    // Least squares about the mean: uv = mean + (a, b) · (q − middle).
+    for (const auto& [q, uv] : known_) middle_ += q, mean_ += glm::dvec2(uv);
+    const auto n = static_cast<double>(std::max<size_t>(known_.size(), 1));
+    middle_ /= n, mean_ /= n;
+    double xx = 0, xy = 0, yy = 0;
+    glm::dvec2 xu(0), yu(0);
+    for (const auto& [q, uv] : known_) {
+      const glm::dvec2 d = q - middle_, e = glm::dvec2(uv) - mean_;
+      xx += d.x * d.x, xy += d.x * d.y, yy += d.y * d.y;
+      xu += d.x * e, yu += d.y * e;
+      at_[{q.x, q.y}] = uv;
+    }
+    const double det = xx * yy - xy * xy;
+    if (std::abs(det) > 1e-12) alongX_ = (yy * xu - xy * yu) / det, alongY_ = (xx * yu - xy * xu) / det;
+  }
+  bool any() const { return !known_.empty(); }
+  glm::vec2 at(glm::dvec2 q) const {
+    const auto found = at_.find({q.x, q.y});
+    if (found != at_.end()) return found->second;
+    return glm::vec2(mean_ + alongX_ * (q.x - middle_.x) + alongY_ * (q.y - middle_.y));
+  }
+
+ private:
+  std::vector<std::pair<glm::dvec2, glm::vec2>> known_;
+  std::map<std::pair<double, double>, glm::vec2> at_;
+  glm::dvec2 middle_{0}, mean_{0}, alongX_{0}, alongY_{0};
+};
+
 Mesh meshOf(const Face& face, const Axes& axes, const std::vector<glm::dvec3>& points, SurfaceReport& report) {
   const glm::dvec3 o = points[face.rings[0][0]];
   const auto flat = [&](const glm::dvec3& p) { return glm::dvec2(glm::dot(p - o, axes.u), glm::dot(p - o, axes.v)); };
   Mesh mesh;
   Polygon polygon;
   std::vector<std::vector<uint32_t>> rings = face.rings;
+  std::vector<std::pair<glm::dvec2, glm::vec2>> exactUvs, snappedUvs;
   for (size_t r = 0; r < rings.size(); ++r) {
     Ring ring;
-    for (const uint32_t i : rings[r]) ring.push_back(flat(points[i]));
+    for (size_t k = 0; k < rings[r].size(); ++k) {
+      ring.push_back(flat(points[rings[r][k]]));
+      if (r >= face.uvs.size() || face.uvs[r].empty()) continue;
+      exactUvs.emplace_back(ring.back(), face.uvs[r][k]);
+      snappedUvs.emplace_back(snapped(ring.back()), face.uvs[r][k]);
+    }
     if ((signedArea(ring) > 0) != (r == 0)) {
       std::reverse(ring.begin(), ring.end());
       std::reverse(rings[r].begin(), rings[r].end());
@@ -212,12 +268,16 @@ Mesh meshOf(const Face& face, const Axes& axes, const std::vector<glm::dvec3>& p
   const auto lifted = [&](glm::dvec2 q) { return o + axes.u * q.x + axes.v * q.y; };
   if (isPlainlyValid(polygon)) {
     Triangulation cut = triangulate(polygon);
-    for (const auto& ring : rings)
-      for (const uint32_t i : ring) mesh.positions.push_back(points[i]);
-    for (size_t i = mesh.positions.size(); i < cut.points.size(); ++i) mesh.positions.push_back(lifted(cut.points[i]));
-    mesh.triangles = std::move(cut.triangles);
-    if (!mesh.triangles.empty()) return mesh;
-    mesh.positions.clear();
+    if (!cut.triangles.empty()) {
+      for (const auto& ring : rings)
+        for (const uint32_t i : ring) mesh.positions.push_back(points[i]);
+      for (size_t i = mesh.positions.size(); i < cut.points.size(); ++i)
+        mesh.positions.push_back(lifted(cut.points[i]));
+      if (const TextureMap map(std::move(exactUvs)); map.any())
+        for (const glm::dvec2& q : cut.points) mesh.uvs.push_back(map.at(q));
+      mesh.triangles = std::move(cut.triangles);
+      return mesh;
+    }
   }
 
   // Repaired in its plane; points that it had keep their place in space, new ones lie in the plane.
@@ -227,6 +287,7 @@ Mesh meshOf(const Face& face, const Axes& axes, const std::vector<glm::dvec3>& p
       const glm::dvec2 q = snapped(flat(points[i]));
       known.emplace(std::pair(q.x, q.y), points[i]);
     }
+  const TextureMap map(std::move(snappedUvs));
   const CleanedPolygons cleaned = cleanPolygon(polygon);
   if (cleaned.repaired) ++report.repaired;
   for (const Polygon& p : cleaned.polygons) {
@@ -237,6 +298,7 @@ Mesh meshOf(const Face& face, const Axes& axes, const std::vector<glm::dvec3>& p
     for (const glm::dvec2& q : cut.points) {
       const auto found = known.find({q.x, q.y});
       mesh.positions.push_back(found != known.end() ? found->second : lifted(q));
+      if (map.any()) mesh.uvs.push_back(map.at(q));
     }
   }
   return mesh;
@@ -346,6 +408,7 @@ void SurfaceBuilder::add(const Face& face) {
       // Windows only on upright walls that fill the rectangle around them.
       const bool rectangle = std::abs(face.normal.z) < 0.1 && area > 0.97 * span.width() * span.height();
       if (rectangle && span.height() >= kSmallestFacadeHeight) bays = baysIn(span.width());
+      if (face.material != kNoMaterial) bays = 0;
       if (bays > 0) finish = options_.style.facade;
       break;
     }
@@ -365,23 +428,33 @@ void SurfaceBuilder::add(const Face& face) {
   std::vector<glm::vec3> positions;
   std::vector<glm::vec2> uvs;
   const double storeys = storeysIn(span.height());
-  for (const glm::dvec3& p : mesh.positions) {
+  const bool painted = face.material < options_.materials.size();
+  const city::MaterialId material = painted ? options_.materials[face.material] : id(finish);
+  for (size_t i = 0; i < mesh.positions.size(); ++i) {
+    const glm::dvec3& p = mesh.positions[i];
     positions.emplace_back(p);
+    if (painted && !mesh.uvs.empty()) {
+      uvs.push_back(mesh.uvs[i]);
+      continue;
+    }
     const double u = glm::dot(p, axes.u), v = glm::dot(p, axes.v);
     uvs.push_back(bays > 0
                       ? glm::vec2((u - span.left) / span.width() * bays, (p.z - span.bottom) / span.height() * storeys)
                       : glm::vec2(u, plane == PlaneKind::Wall ? p.z : v));
   }
   const bool opening = face.kind == SurfaceKind::Window || face.kind == SurfaceKind::Door;
-  builder_.beginPlane(plane, id(finish), glm::vec3(face.normal), !opening);
-  builder_.addTriangles(positions, uvs, mesh.triangles, glm::vec3(face.normal), id(finish));
+  const bool seeThrough = opening || (painted && options_.mayHaveHoles[face.material] != 0);
+  builder_.beginPlane(plane, material, glm::vec3(face.normal), !seeThrough);
+  builder_.addTriangles(positions, uvs, mesh.triangles, glm::vec3(face.normal), material);
   if (face.bothSides) {
     std::vector<uint32_t> back(mesh.triangles);
     for (size_t t = 0; t + 2 < back.size(); t += 3) std::swap(back[t + 1], back[t + 2]);
-    builder_.addTriangles(positions, uvs, back, glm::vec3(-face.normal), id(finish));
+    builder_.addTriangles(positions, uvs, back, glm::vec3(-face.normal), material);
   }
   if (face.kind == SurfaceKind::Wall) {
-    const auto line = occluderOf(face, axes, points_);
+    // A picture may have holes, through which one sees.
+    const bool holes = painted && options_.mayHaveHoles[face.material] != 0;
+    const auto line = holes ? std::nullopt : occluderOf(face, axes, points_);
     if (line) builder_.addOccluder(*line);
     if (options_.groundAt) addSkirt(face, axes, line.has_value());
   }

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "assets/import/finishes.hpp"
 #include "assets/import/source.hpp"
@@ -22,6 +23,8 @@ struct SurfaceReport {
 
 struct SurfaceOptions {
   Style style;
+  std::vector<city::MaterialId> materials;  ///< the city's number of each of the source's materials
+  std::vector<uint8_t> mayHaveHoles;        ///< for each of them: 1 where its picture may be transparent
   /// Height of the ground under a point of the building's frame, in the same frame; may be empty, may give NaN.
   std::function<double(glm::dvec2)> groundAt;
 };

@@ -1,12 +1,15 @@
 #include "assets/materials/image_file.hpp"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <string_view>
 
 namespace vicus::assets {
@@ -160,10 +163,47 @@ bool readReduced(OIIO::ImageInput& file, const OIIO::ImageSpec& spec, int factor
 
 }  // namespace
 
+namespace {
+
+/// "FILE#bytes=OFFSET+LENGTH" taken apart; nothing for an ordinary path.
+struct Slice {
+  std::string file;
+  uint64_t offset = 0, length = 0;
+};
+std::optional<Slice> sliceOf(const std::string& path) {
+  constexpr std::string_view kMark = "#bytes=";
+  const size_t mark = path.rfind(kMark);
+  if (mark == std::string::npos) return std::nullopt;
+  Slice slice{path.substr(0, mark), 0, 0};
+  const char *at = path.data() + mark + kMark.size(), *end = path.data() + path.size();
+  const auto offset = std::from_chars(at, end, slice.offset);
+  if (offset.ec != std::errc() || offset.ptr == end || *offset.ptr != '+') return std::nullopt;
+  const auto length = std::from_chars(offset.ptr + 1, end, slice.length);
+  if (length.ec != std::errc() || length.ptr != end) return std::nullopt;
+  return slice;
+}
+
+/// The slice's bytes; fewer where the file has become shorter.
+std::vector<char> bytesOf(const Slice& slice) {
+  std::ifstream stream(slice.file, std::ios::binary | std::ios::ate);
+  const auto size = static_cast<uint64_t>(std::max<std::streamoff>(stream.tellg(), 0));
+  std::vector<char> bytes(slice.offset < size ? std::min(slice.length, size - slice.offset) : 0);
+  stream.seekg(static_cast<std::streamoff>(slice.offset));
+  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  return bytes;
+}
+
+}  // namespace
+
 Image readImageFile(const std::string& path, city::Diagnostics& diagnostics) {
   OIIO::ImageSpec hints;
   hints.attribute("oiio:UnassociatedAlpha", 1);
-  const auto file = OIIO::ImageInput::open(path, &hints);
+  const std::optional<Slice> slice = sliceOf(path);
+  const std::vector<char> bytes = slice ? bytesOf(*slice) : std::vector<char>();
+  // Readers of bytes are found by a name's ending: PNG begins with a byte that no other format does.
+  const char* kind = bytes.size() > 1 && bytes[0] == '\x89' ? "slice.png" : "slice.jpg";
+  OIIO::Filesystem::IOMemReader memory(const_cast<char*>(bytes.data()), bytes.size());
+  const auto file = slice ? OIIO::ImageInput::open(kind, &hints, &memory) : OIIO::ImageInput::open(path, &hints);
   if (!file) {
     diagnostics.error(path, "", "the picture cannot be read; grey is shown: " + oneLine(OIIO::geterror()));
     return grey();
@@ -185,7 +225,7 @@ Image readImageFile(const std::string& path, city::Diagnostics& diagnostics) {
     diagnostics.error(path, "", "the picture is damaged; grey is shown: " + oneLine(file->geterror()));
     return grey();
   }
-  if (file->format_name() == std::string_view("jpeg") && jpegEndsEarly(path))
+  if (!slice && file->format_name() == std::string_view("jpeg") && jpegEndsEarly(path))
     diagnostics.warn(path, "", "the picture ends early; what is missing of it is grey");
   return image;
 }

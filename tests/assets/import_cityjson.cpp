@@ -222,9 +222,10 @@ TEST(CityJson, TerrainIsGriddedAndBuildingsReachIt) {
 TEST(CityJson, WhatIsNoBuildingIsLeftOutByNameAndUnknownTypesAreShown) {
   const std::string box = solid({kGround, kSouth, kEast, kNorth, kWest, kTop});
   const LoadResult r = loadText(cityJson(
-      object("r", "Road", geometry("MultiSurface", "1", join({kGround}))) + "," + object("a", "+Archway", box), kBox));
+      object("r", "CityFurniture", geometry("MultiSurface", "1", join({kGround}))) + "," + object("a", "+Archway", box),
+      kBox));
   EXPECT_EQ(r.city->buildings.size(), 1u);
-  EXPECT_THAT(messagesOf(r.diagnostics), HasSubstr("Road 1: objects of this type are not shown"));
+  EXPECT_THAT(messagesOf(r.diagnostics), HasSubstr("CityFurniture 1: objects of this type are not shown"));
   EXPECT_THAT(messagesOf(r.diagnostics), HasSubstr("1 objects of the type +Archway"));
 }
 

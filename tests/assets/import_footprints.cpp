@@ -125,10 +125,10 @@ TEST(Footprints, HexagonGetsAPyramidOfItsOwnVolume) {
 }
 
 TEST(Footprints, RoofShapes) {
-  EXPECT_EQ(roofShapeOf({{{{0, 0}, {9, 0}, {9, 5}, {0, 5}}}}), RoofShape::Gable);
-  EXPECT_EQ(roofShapeOf({{{{0, 0}, {9, 0}, {4, 5}}}}), RoofShape::Pyramid);
-  EXPECT_EQ(roofShapeOf({{{{0, 0}, {9, 0}, {5, 1}, {4, 1}}}}), RoofShape::Pyramid) << "no angle near a right one";
-  EXPECT_EQ(roofShapeOf({{kL}}), RoofShape::Flat);
+  EXPECT_EQ(roofFormOf({{{{0, 0}, {9, 0}, {9, 5}, {0, 5}}}}), RoofForm::Gable);
+  EXPECT_EQ(roofFormOf({{{{0, 0}, {9, 0}, {4, 5}}}}), RoofForm::Pyramid);
+  EXPECT_EQ(roofFormOf({{{{0, 0}, {9, 0}, {5, 1}, {4, 1}}}}), RoofForm::Pyramid) << "no angle near a right one";
+  EXPECT_EQ(roofFormOf({{kL}}), RoofForm::Flat);
 }
 
 TEST(Footprints, BowTieIsRepairedAndNamed) {

@@ -1,0 +1,269 @@
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <unordered_map>
+
+#include "assets/import/assembly.hpp"
+#include "assets/import/parallel.hpp"
+
+namespace vicus::assets {
+namespace {
+
+/// Where an edge lies, whichever way it runs.
+uint64_t edgeKey(glm::dvec2 a, glm::dvec2 b) {
+  if (b.x < a.x || (b.x == a.x && b.y < a.y)) std::swap(a, b);
+  uint64_t h = 1469598103934665603ULL;
+  for (const double v : {a.x, a.y, b.x, b.y}) {
+    h ^= static_cast<uint64_t>(static_cast<int64_t>(v / kSnap));
+    h *= 0x9e3779b97f4a7c15ULL;
+    h ^= h >> 29;
+  }
+  return h;
+}
+
+/// Marks the edges that two buildings, or two parts of one, have in common.
+void markSharedEdges(std::vector<Outline>& outlines) {
+  std::vector<std::vector<uint64_t>> keys(outlines.size());
+  parallelFor(outlines.size(), 256, [&](size_t i) {
+    for (const Extrusion::Part& part : outlines[i].parts)
+      for (const Ring& ring : part.polygon.rings)
+        for (size_t k = 0; k < ring.size(); ++k) keys[i].push_back(edgeKey(ring[k], ring[(k + 1) % ring.size()]));
+  });
+  std::vector<uint64_t> all;
+  for (const auto& k : keys) all.insert(all.end(), k.begin(), k.end());
+  std::sort(all.begin(), all.end());
+  parallelFor(outlines.size(), 256, [&](size_t i) {
+    size_t next = 0;
+    for (Extrusion::Part& part : outlines[i].parts)
+      for (const Ring& ring : part.polygon.rings) {
+        std::vector<uint8_t>& shared = part.shared.emplace_back();
+        for (size_t k = 0; k < ring.size(); ++k) {
+          const auto range = std::equal_range(all.begin(), all.end(), keys[i][next++]);
+          shared.push_back(range.second - range.first > 1 ? 1 : 0);
+        }
+      }
+  });
+}
+
+/// Everything that decides a geometry, as bytes: equal where the geometries are.
+std::string keyOf(const Extrusion& e) {
+  std::string key;
+  const auto add = [&key](const auto& value) {
+    char bytes[sizeof value];
+    std::memcpy(bytes, &value, sizeof value);
+    key.append(bytes, sizeof value);
+  };
+  add(e.foundation), add(e.pitch), add(e.style.facade), add(e.style.plain), add(e.style.roof);
+  for (const Extrusion::Part& part : e.parts) {
+    add(part.height), add(part.bottom), add(part.roof), add(part.roofHeight);
+    add(part.polygon.rings.size());
+    for (size_t r = 0; r < part.polygon.rings.size(); ++r) {
+      add(part.polygon.rings[r].size());
+      for (const glm::dvec2& p : part.polygon.rings[r]) add(p.x), add(p.y);
+      key.append(part.shared[r].begin(), part.shared[r].end());
+    }
+  }
+  return key;
+}
+
+void cleanOne(Outline& o, glm::dvec3 origin) {
+  if (o.footprint->parts.empty()) o.problem = "it has no outline";
+  for (const FootprintPart& raw : o.footprint->parts) {
+    if (raw.polygon.rings.empty() || raw.polygon.rings[0].empty()) {
+      o.problem = "it has no outline";
+      continue;
+    }
+    // Near the polygon's own first point numbers are exact; whole metres keep the snapping grid.
+    const glm::dvec2 toLocal = -glm::dvec2(origin), base = glm::round(raw.polygon.rings[0][0] + toLocal);
+    Polygon local = raw.polygon;
+    for (Ring& ring : local.rings)
+      for (glm::dvec2& q : ring) q = (q + toLocal) - base;
+    CleanedPolygons c = cleanPolygon(local);
+    o.repaired = o.repaired || c.repaired;
+    if (c.polygons.empty()) o.problem = c.problem;
+    for (Polygon& p : c.polygons) {
+      for (Ring& ring : p.rings)
+        for (glm::dvec2& q : ring) q += base;
+      Extrusion::Part& part = o.parts.emplace_back();
+      part.polygon = std::move(p);
+      part.height = raw.height, part.bottom = std::max(0.0, raw.bottom), part.roof = raw.roof;
+      part.roofHeight = raw.roofHeight;
+      // Only the ridge is known: the eaves lie below it by the roof's own height, and nobody lives in a tent.
+      if (!(raw.height > 0) && raw.top > 0) {
+        constexpr double kLeastWall = 0.3;  // share of the height
+        const double free = raw.top - part.bottom;
+        if (!(part.roofHeight > 0))
+          part.roofHeight = roofRise(part.polygon, roofFormOf(part.polygon, raw.roof), glm::radians(28.0));
+        part.roofHeight = std::min(part.roofHeight, (1 - kLeastWall) * free);
+        part.height = raw.top - part.roofHeight;
+      }
+    }
+  }
+}
+
+void reportCleaning(const std::vector<Source>& sources, const std::vector<Outline>& outlines,
+                    city::Diagnostics& diagnostics) {
+  for (const Source& s : sources) {
+    std::vector<std::string> repaired, partly;
+    for (const Outline& o : outlines) {
+      if (o.source != &s) continue;
+      if (o.parts.empty()) {
+        diagnostics.warn(s.file, o.footprint->id, "left out: " + o.problem);
+        diagnostics.leftOut.push_back({"building " + o.footprint->id, 1, o.problem});
+        continue;
+      }
+      if (o.repaired) repaired.push_back(o.footprint->id);
+      if (!o.problem.empty()) partly.push_back(o.footprint->id + " (" + o.problem + ")");
+    }
+    if (!repaired.empty())
+      diagnostics.warn(s.file, "",
+                       counted(repaired.size(), "footprint crossed or touched itself and was repaired: ",
+                               "footprints crossed or touched themselves and were repaired: ") +
+                           list(repaired));
+    if (!partly.empty())
+      diagnostics.warn(s.file, "",
+                       counted(partly.size(), "footprint lost a part: ", "footprints lost a part: ") + list(partly));
+  }
+}
+
+glm::dvec2 middleOf(const Outline& o) {
+  const Extrusion::Part* largest = &o.parts[0];
+  for (const Extrusion::Part& p : o.parts)
+    if (area(p.polygon) > area(largest->polygon)) largest = &p;
+  return snapped(centroid(largest->polygon));
+}
+
+/// The terrain along all outlines of a building.
+GroundUnder groundUnderAll(const city::HeightField& terrain, const Outline& o) {
+  GroundUnder all;
+  double sum = 0, areas = 0;
+  for (const Extrusion::Part& p : o.parts) {
+    if (p.bottom > 0) continue;
+    const GroundUnder g = groundUnder(terrain, p.polygon.rings[0]);
+    if (!g.known) continue;
+    all.lowest = all.known ? std::min(all.lowest, g.lowest) : g.lowest;
+    sum += g.mean * area(p.polygon), areas += area(p.polygon);
+    all.known = true;
+  }
+  if (all.known) all.mean = sum / areas;
+  if (!all.known && !o.parts.empty()) all = groundUnder(terrain, o.parts[0].polygon.rings[0]);
+  return all;
+}
+
+/// The building's form in its own frame, whose origin lies at `middle` and at the height `base`.
+Extrusion extrusionOf(Outline& o, glm::dvec2 middle, const std::optional<city::HeightField>& terrain, double& base) {
+  Extrusion e;
+  const uint32_t variant = seedOf(o.footprint->id) % 8;
+  // Where it stands: the terrain along its outline, else what its source says.
+  if (terrain) o.under = groundUnderAll(*terrain, o);
+  const double stated = std::isfinite(o.ground) ? o.ground : 0;
+  base = o.under.known ? o.under.mean : stated;
+  base = std::nearbyint(base / kSnap) * kSnap;
+  const double lowest = o.under.known ? o.under.lowest : base;
+  // In steps of 0.25 m, so that equal footprints on nearly level ground remain equal.
+  e.foundation = std::ceil(std::max(0.5, base - lowest + 0.3) * 4) / 4;
+  e.pitch = glm::radians(25.0 + 5.0 * variant / 7.0);
+  const city::Attributes& attributes = o.footprint->attributes;
+  e.style =
+      styled(styleFor(attribute(attributes, {"material", "material.value", "building:material", "materiau"}), variant),
+             o.source->styles, attributes);
+  e.parts = std::move(o.parts);
+  const double height = o.footprint->height > 0 ? o.footprint->height : o.source->defaultHeight;
+  for (Extrusion::Part& p : e.parts) {
+    if (!(p.height > 0)) p.height = height;
+    if (!(p.height > p.bottom + 0.1)) p.height = p.bottom + 0.1;
+    for (Ring& ring : p.polygon.rings)
+      for (glm::dvec2& q : ring) q -= middle;
+  }
+  return e;
+}
+
+}  // namespace
+
+std::vector<Outline> cleanFootprints(const std::vector<Source>& sources, glm::dvec3 origin,
+                                     city::Diagnostics& diagnostics) {
+  std::vector<Outline> outlines;
+  for (const Source& s : sources)
+    for (const Footprint& f : s.footprints) {
+      Outline& o = outlines.emplace_back();
+      o.footprint = &f, o.source = &s;
+      o.ground = f.ground - origin.z;
+    }
+  parallelFor(outlines.size(), 64, [&](size_t i) { cleanOne(outlines[i], origin); });
+  reportCleaning(sources, outlines, diagnostics);
+  std::erase_if(outlines, [](const Outline& o) { return o.parts.empty(); });
+  markSharedEdges(outlines);
+  return outlines;
+}
+
+void addFootprints(Assembly& a, std::vector<Outline>& outlines) {
+  std::vector<glm::dvec2> middles(outlines.size());
+  std::vector<Extrusion> extrusions(outlines.size());
+  std::vector<double> bases(outlines.size(), 0);
+  std::vector<std::string> keys(outlines.size());
+  parallelFor(outlines.size(), 64, [&](size_t i) {
+    middles[i] = middleOf(outlines[i]);
+    extrusions[i] = extrusionOf(outlines[i], middles[i], a.city.terrain, bases[i]);
+    keys[i] = keyOf(extrusions[i]);
+  });
+
+  // One geometry for each distinct footprint.
+  std::unordered_map<std::string_view, uint32_t> typeOf;
+  std::vector<size_t> firstWith;
+  std::vector<uint32_t> geometry(outlines.size());
+  for (size_t i = 0; i < outlines.size(); ++i) {
+    const auto [found, isNew] = typeOf.emplace(keys[i], static_cast<uint32_t>(firstWith.size()));
+    if (isNew) firstWith.push_back(i);
+    geometry[i] = found->second;
+  }
+  std::vector<std::optional<city::BuildingGeometry>> built(firstWith.size());
+  parallelFor(built.size(), 32, [&](size_t t) {
+    const size_t i = firstWith[t];
+    built[t] = extrude(extrusions[i], outlines[i].footprint->id);
+  });
+
+  std::vector<uint32_t> number(built.size(), city::kNone);
+  for (size_t t = 0; t < built.size(); ++t) {
+    if (!built[t]) continue;
+    number[t] = static_cast<uint32_t>(a.city.buildingTypes.size());
+    a.city.buildingTypes.push_back(std::move(*built[t]));
+  }
+  std::vector<std::string> withoutHeight;
+  const Source* source = nullptr;
+  std::vector<double> gaps;
+  const auto finishFile = [&] {
+    if (!source) return;
+    if (!withoutHeight.empty())
+      a.diagnostics.warn(source->file, "",
+                         counted(withoutHeight.size(), "building has", "buildings have") + " no height and became " +
+                             shortNumber(source->defaultHeight) + " m high: " + list(withoutHeight));
+    reportGaps(source->file, std::move(gaps), "the buildings' ground altitudes", a.diagnostics);
+    withoutHeight.clear();
+    gaps = {};
+  };
+  for (size_t i = 0; i < outlines.size(); ++i) {
+    const Outline& o = outlines[i];
+    const Footprint& f = *o.footprint;
+    if (source != o.source) finishFile();
+    source = o.source;
+    if (number[geometry[i]] == city::kNone) {
+      a.diagnostics.warn(source->file, f.id, "left out: its roof could not be cut into triangles");
+      a.diagnostics.leftOut.push_back({"building " + f.id, 1, "its roof could not be cut into triangles"});
+      continue;
+    }
+    const bool partsKnow =
+        std::all_of(f.parts.begin(), f.parts.end(), [](const FootprintPart& p) { return p.height > 0 || p.top > 0; });
+    if (!(f.height > 0) && !partsKnow) withoutHeight.push_back(f.id);
+    if (o.under.known && std::isfinite(o.ground)) gaps.push_back(std::abs(o.under.mean - o.ground));
+    city::Instance instance;
+    instance.position = {middles[i], bases[i]};
+    instance.geometry = number[geometry[i]];
+    instance.seed = seedOf(f.id);
+    instance.attributes = static_cast<uint32_t>(a.city.attributes.size());
+    a.city.attributes.push_back(f.attributes);
+    a.parts.buildings.push_back(instance);
+  }
+  finishFile();
+}
+
+}  // namespace vicus::assets

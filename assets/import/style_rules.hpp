@@ -1,0 +1,40 @@
+/// Which buildings look how: rules over their attributes.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "assets/import/finishes.hpp"
+#include "city/city.hpp"
+
+namespace vicus::assets {
+
+/// One thing that an attribute must be.
+struct StyleCondition {
+  std::string attribute;              ///< its name as the source writes it
+  std::optional<std::string> equals;  ///< text; upper and lower case count as the same
+  std::optional<std::string> contains;
+  std::optional<double> atLeast, below;  ///< of the first number in its text
+
+  bool operator==(const StyleCondition&) const = default;
+};
+
+/// What buildings are finished with for which all conditions hold; finishes that are not named stay as they were.
+struct StyleRule {
+  std::vector<StyleCondition> where;
+  std::optional<Finish> facade, plain, roof;
+
+  bool operator==(const StyleRule&) const = default;
+};
+
+/// The finish of that name ("brick", "facade-plaster", …); nothing where there is none.
+std::optional<Finish> finishNamed(std::string_view name);
+/// Names of all finishes, as scene descriptions write them.
+std::vector<std::string> finishNames();
+
+/// `style` as the first rule changes it whose conditions all hold.
+Style styled(Style style, const std::vector<StyleRule>& rules, const city::Attributes& attributes);
+
+}  // namespace vicus::assets

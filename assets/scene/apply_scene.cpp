@@ -1,0 +1,53 @@
+#include "assets/scene/apply_scene.hpp"
+
+#include <cmath>
+
+#include "assets/import/projection.hpp"
+
+namespace vicus::assets {
+namespace {
+
+/// The position of a place in the city; nothing where it cannot be brought there.
+std::optional<glm::dvec3> localOf(const ScenePlace& place, const city::City& city, const std::string& sceneCrs,
+                                  const std::string& cityCrs, glm::dvec3 shift) {
+  glm::dvec2 p[] = {place.position};
+  const std::string from = place.degrees ? crsFromText("EPSG:4326") : sceneCrs;
+  if (!from.empty() && !cityCrs.empty()) {
+    const auto failed = transform(from, cityCrs, p);
+    if (!failed || *failed > 0) return std::nullopt;
+  } else if (place.degrees) {
+    return std::nullopt;
+  }
+  p[0] += glm::dvec2(shift) - glm::dvec2(city.origin);
+  double z = place.altitude ? *place.altitude + shift.z - city.origin.z : place.aboveGround;
+  if (!place.altitude && city.terrain) z += city.terrain->heightAt(p[0].x, p[0].y).value_or(0);
+  return glm::dvec3(p[0], z);
+}
+
+}  // namespace
+
+void applyScene(city::City& city, const SceneDescription& scene, glm::dvec3 shift, city::Diagnostics& diagnostics) {
+  const std::string sceneCrs = scene.crs.empty() ? std::string() : crsFromText(scene.crs),
+                    cityCrs = crsFromText(city.crs);
+  for (const SceneTour& tour : scene.tours) {
+    city::Tour& out = city.tours.emplace_back();
+    out.name = tour.name, out.jumps = tour.jumps;
+    for (const SceneKey& key : tour.keys) {
+      const auto position = localOf(key.place, city, sceneCrs, cityCrs, shift);
+      if (!position) {
+        diagnostics.error(scene.file, tour.name, "its place cannot be brought into the city's CRS " + city.crs);
+        continue;
+      }
+      out.keys.push_back({key.time, *position, key.heading, key.pitch});
+    }
+    if (out.keys.empty()) city.tours.pop_back();
+  }
+  const SceneEnvironment& light = scene.environment;
+  if (light.sunAzimuth) city.environment.sunAzimuth = *light.sunAzimuth;
+  if (light.sunElevation) city.environment.sunElevation = *light.sunElevation;
+  if (light.hazeDistance) city.environment.hazeDistance = *light.hazeDistance;
+  if (scene.avatars.count > 0)
+    diagnostics.leftOut.push_back({"avatars", scene.avatars.count, "a city holds no people yet"});
+}
+
+}  // namespace vicus::assets
