@@ -17,6 +17,8 @@ int walk(const WalkOptions& options, const Surroundings& surroundings);
 /// Renders a tour offscreen, every frame of it: to `options.film` where that is a video file's name, else to pictures
 /// in a folder of that name.
 int film(const WalkOptions& options, const Surroundings& surroundings);
+/// A first scene description for data files.
+int importScene(const ImportOptions& options, const Surroundings& surroundings);
 /// What a scene holds.
 int info(const InfoOptions& options, const Surroundings& surroundings);
 /// Every knob.

@@ -19,6 +19,7 @@ struct Surroundings {
   std::ostream& err;        ///< progress and messages
   bool terminal = false;    ///< err is a terminal: progress is one line that is rewritten
   std::string cacheFolder;  ///< empty: no cache
+  std::string dataFolder;   ///< where scene descriptions find files that are not beside them; empty: nowhere else
 };
 
 /// Speaks on Surroundings::err, from any thread. Invariant: a line of progress never runs into a message.

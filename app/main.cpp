@@ -25,5 +25,7 @@ std::string cacheFolder() {
 int main(int argc, char** argv) {
   vicus::app::catchInterrupts();
   const std::vector<std::string> arguments(argv + 1, argv + argc);
-  return vicus::app::run(arguments, {std::cout, std::cerr, isatty(STDERR_FILENO) == 1, cacheFolder()});
+  const char* data = std::getenv("VICUS_DATA");
+  return vicus::app::run(arguments,
+                         {std::cout, std::cerr, isatty(STDERR_FILENO) == 1, cacheFolder(), data ? data : ""});
 }

@@ -38,6 +38,35 @@ std::string sceneName(const SceneOptions& options) {
   return name;
 }
 
+assets::LoadOptions loadOptions(const SceneOptions& options, const Surroundings& surroundings, Console& console) {
+  assets::LoadOptions load;
+  load.elevation = options.elevation;
+  load.heightColumn = options.heightColumn, load.groundColumn = options.groundColumn;
+  load.crs = options.crs, load.terrainUnit = options.terrainUnit, load.lod = options.lod;
+  load.shift = options.shift;
+  load.dataFolder = surroundings.dataFolder;
+  if (!options.noCache) load.cacheFolder = surroundings.cacheFolder;
+  load.progress = [&console](std::string_view stage, double fraction) { console.progress(stage, fraction); };
+  return load;
+}
+
+namespace {
+
+/// The scene's own settings, then the user's over them; false, with messages, where one of the scene's is wrong.
+bool applySettings(const std::vector<assets::SceneSetting>& own, const SceneOptions& options, city::Knobs& knobs,
+                   Console& console) {
+  bool good = true;
+  for (const assets::SceneSetting& setting : own)
+    if (const std::string problem = knobs.set(setting.text); !problem.empty()) {
+      console.error(sceneName(options) + ": " + setting.place + ": " + problem);
+      good = false;
+    }
+  for (const std::string& setting : options.knobs) knobs.set(setting);
+  return good;
+}
+
+}  // namespace
+
 std::optional<OpenScene> openScene(const SceneOptions& options, const Surroundings& surroundings, Console& console,
                                    int& code) {
   std::optional<city::Knobs> knobs = knobsFrom(options.knobs, console);
@@ -49,13 +78,7 @@ std::optional<OpenScene> openScene(const SceneOptions& options, const Surroundin
   scene.knobs = std::move(*knobs);
   scene.name = sceneName(options);
 
-  assets::LoadOptions load;
-  load.elevation = options.elevation;
-  load.heightColumn = options.heightColumn, load.groundColumn = options.groundColumn;
-  load.crs = options.crs;
-  load.shift = options.shift;
-  if (!options.noCache) load.cacheFolder = surroundings.cacheFolder;
-  load.progress = [&](std::string_view stage, double fraction) { console.progress(stage, fraction); };
+  const assets::LoadOptions load = loadOptions(options, surroundings, console);
 
   const auto begin = std::chrono::steady_clock::now();
   assets::LoadResult result = assets::loadCity(options.inputs, load);
@@ -64,6 +87,10 @@ std::optional<OpenScene> openScene(const SceneOptions& options, const Surroundin
   console.report(result.diagnostics);
   if (!result.city) {
     console.error(scene.name + ": nothing to show");
+    code = kCouldNot;
+    return std::nullopt;
+  }
+  if (!applySettings(result.settings, options, scene.knobs, console)) {
     code = kCouldNot;
     return std::nullopt;
   }

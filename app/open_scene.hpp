@@ -8,6 +8,7 @@
 
 #include "app/console.hpp"
 #include "app/options.hpp"
+#include "assets/load_city.hpp"
 #include "city/city.hpp"
 #include "city/knob.hpp"
 #include "plan/planner.hpp"
@@ -34,6 +35,9 @@ std::optional<city::Knobs> knobsFrom(const std::vector<std::string>& settings, C
 
 /// The inputs as given.
 std::string sceneName(const SceneOptions& options);
+
+/// How the loader is asked for what the user named.
+assets::LoadOptions loadOptions(const SceneOptions& options, const Surroundings& surroundings, Console& console);
 
 /// Loads the city, telling progress and messages. On failure nothing, with the exit code in `code`.
 std::optional<OpenScene> openScene(const SceneOptions& options, const Surroundings& surroundings, Console& console,

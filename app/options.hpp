@@ -19,7 +19,9 @@ struct SceneOptions {
   std::vector<std::string> inputs;
   std::vector<std::string> elevation;
   std::string heightColumn, groundColumn, crs;
-  glm::dvec3 shift{0};  ///< metres
+  std::string terrainUnit;  ///< of the elevation rasters; empty: as they say
+  double lod = 10;          ///< finest level of detail that is wanted
+  glm::dvec3 shift{0};      ///< metres
   bool noCache = false;
   std::vector<std::string> knobs;  ///< name=value
 };
@@ -52,6 +54,12 @@ struct InfoOptions {
   SceneOptions scene;
   bool json = false;
   bool graph = false;
+};
+
+struct ImportOptions {
+  SceneOptions scene;
+  std::string out;  ///< the description's file
+  bool overwrite = false;
 };
 
 struct ReportCommandOptions {

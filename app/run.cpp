@@ -14,8 +14,9 @@ struct Parsed {
   CheckOptions check;
   ReportCommandOptions report;
   WalkOptions film;
+  ImportOptions draft;
   bool knobsJson = false;
-  std::string shift[5];  ///< of walk, info, check, report and film
+  std::string shift[6];  ///< of walk, info, check, report, film and import
   std::string walkSize, checkSize, filmSize;
   std::vector<std::string> views, checkViews;
   std::string seenFrom;
@@ -23,8 +24,8 @@ struct Parsed {
 
 void addScene(CLI::App& command, SceneOptions& scene, std::string& shift) {
   command.add_option("SCENE", scene.inputs,
-                     "norvic (the default), norvic:8000, norwich-2001, or files as they come: footprints, CityJSON, "
-                     "elevation");
+                     "norvic (the default), norvic:8000, norwich-2001, a scene description (*.toml), or files as they "
+                     "come: footprints, CityJSON, CityGML, OpenStreetMap, 3D Tiles, elevation, meshes");
   // Options that may be repeated take one value each, so that they never swallow the scene.
   const auto repeated = [&](const char* name, std::vector<std::string>& values, const char* help) {
     return command.add_option(name, values, help)->allow_extra_args(false);
@@ -34,6 +35,13 @@ void addScene(CLI::App& command, SceneOptions& scene, std::string& shift) {
   command.add_option("--ground-column", scene.groundColumn, "column of the ground's altitude in metres")
       ->type_name("NAME");
   command.add_option("--crs", scene.crs, "coordinates of files that name none, as EPSG:2154")->type_name("CRS");
+  command
+      .add_option("--dem-unit", scene.terrainUnit, "unit of the elevation's heights, where the file does not say it")
+      ->check(CLI::IsMember({"m", "dm", "cm", "ft", "us-ft"}))
+      ->type_name("UNIT");
+  command.add_option("--lod", scene.lod, "finest level of detail that is wanted of CityJSON and CityGML, 0 to 3")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("L");
   command.add_option("--shift", shift, "metres added to all coordinates: x,y,z")->type_name("X,Y,Z");
   command.add_flag("--no-cache", scene.noCache, "neither read nor write the cache");
   repeated("--set", scene.knobs, "set a knob (see vicus knobs)")->type_name("KNOB=VALUE");
@@ -107,6 +115,11 @@ void addOthers(CLI::App& app, Parsed& p) {
       ->type_name("DIR");
   report.add_flag("--quick", p.report.quick, "small pictures and few frames: about a minute for a town");
 
+  CLI::App& draft = *app.add_subcommand("import", "writes a first scene description for files, with comments");
+  addScene(draft, p.draft.scene, p.shift[5]);
+  draft.add_option("-o,--out", p.draft.out, "the description, SCENE.toml")->required()->type_name("FILE");
+  draft.add_flag("--overwrite", p.draft.overwrite, "replace the file where it exists");
+
   CLI::App& check = *app.add_subcommand(
       "check", "compares random views with and without the techniques: no pixel of a building may be lost");
   addScene(check, p.check.scene, p.shift[2]);
@@ -127,7 +140,8 @@ void addOthers(CLI::App& app, Parsed& p) {
 
 /// Completes the options from their texts; what is wrong, or an empty text.
 std::string complete(Parsed& p) {
-  SceneOptions* scenes[] = {&p.walk.scene, &p.info.scene, &p.check.scene, &p.report.scene, &p.film.scene};
+  SceneOptions* scenes[] = {&p.walk.scene,   &p.info.scene, &p.check.scene,
+                            &p.report.scene, &p.film.scene, &p.draft.scene};
   for (size_t k = 0; k < std::size(scenes); ++k) {
     if (scenes[k]->inputs.empty()) scenes[k]->inputs = {"norvic"};
     if (p.shift[k].empty()) continue;
@@ -198,6 +212,7 @@ int run(std::span<const std::string> arguments, const Surroundings& surroundings
   if (app.got_subcommand("walk")) return walk(parsed.walk, surroundings);
   if (app.got_subcommand("film")) return film(parsed.film, surroundings);
   if (app.got_subcommand("info")) return info(parsed.info, surroundings);
+  if (app.got_subcommand("import")) return importScene(parsed.draft, surroundings);
   if (app.got_subcommand("report")) return report(parsed.report, surroundings);
   if (app.got_subcommand("check")) return check(parsed.check, surroundings);
   return knobs(parsed.knobsJson, surroundings);

@@ -40,6 +40,10 @@ struct Outline {
   GroundUnder under;
 };
 
+/// Solids that have no height (all their points within 10 cm of one level) become footprints of their sources, whose
+/// heights come from their attributes; says which.
+void footprintsFromFlatSolids(std::vector<Source>& sources, city::Diagnostics& diagnostics);
+
 /// Cleans all footprints, marks the edges that two of them share, and reports what was repaired and what cannot be
 /// used.
 std::vector<Outline> cleanFootprints(const std::vector<Source>& sources, glm::dvec3 origin,
@@ -54,9 +58,11 @@ void makeTerrain(Assembly& a, const std::vector<Source>& sources, const std::vec
 void addFootprints(Assembly& a, std::vector<Outline>& outlines);
 /// Buildings from surfaces, with the sources' materials.
 void addSurfaceBuildings(Assembly& a, const std::vector<Source>& sources);
-/// Meshes in their places, streets, free-standing walls, water, trees; then, once the city has its tiles, what covers
-/// its ground.
-void addSurroundings(Assembly& a, std::vector<Source>& sources);
+/// Seas, lakes and rivers, whose beds sink into the terrain: before anything is put on it. `box` as above.
+void addWaters(Assembly& a, const std::vector<Source>& sources, const city::Aabb& box);
+/// Meshes in their places, streets, free-standing walls, trees; then, once the city has its tiles, what covers its
+/// ground.
+void addSurroundings(Assembly& a, std::vector<Source>& sources, const city::Aabb& box);
 void paintGroundCover(city::City& city, const std::vector<Source>& sources);
 
 /// Enters a source's materials into the assembly; gives the number of each. Beyond kMostOwnMaterials they become

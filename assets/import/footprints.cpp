@@ -4,6 +4,7 @@
 #include <unordered_map>
 
 #include "assets/import/assembly.hpp"
+#include "assets/import/columns.hpp"
 #include "assets/import/parallel.hpp"
 
 namespace vicus::assets {
@@ -179,6 +180,47 @@ Extrusion extrusionOf(Outline& o, glm::dvec2 middle, const std::optional<city::H
 }
 
 }  // namespace
+
+void footprintsFromFlatSolids(std::vector<Source>& sources, city::Diagnostics& diagnostics) {
+  constexpr double kNoHeight = 0.1;
+  for (Source& s : sources) {
+    std::vector<std::string> flat;
+    std::erase_if(s.buildings, [&](SurfaceBuilding& b) {
+      double low = INFINITY, high = -INFINITY;
+      for (const glm::dvec3& p : b.points)
+        if (std::isfinite(p.z)) low = std::min(low, p.z), high = std::max(high, p.z);
+      if (b.surfaces.empty() || !(high - low < kNoHeight)) return false;
+      Footprint f;
+      f.id = b.id, f.ground = std::isfinite(b.ground) ? b.ground : low;
+      std::vector<std::string> names;
+      for (const auto& [name, value] : b.attributes) names.push_back(name);
+      for (const size_t i : columnsNamed(names, heightNames()))
+        if (const double v = numberIn(b.attributes[i].second); v > 0 && !(f.height > 0)) f.height = v;
+      // Bottom and top cover the same ground: one of them is enough, upright surfaces have no area.
+      for (const Surface& surface : b.surfaces) {
+        Polygon polygon;
+        for (const auto& ring : surface.rings) {
+          Ring& line = polygon.rings.emplace_back();
+          for (const uint32_t i : ring) line.emplace_back(b.points[i]);
+        }
+        constexpr double kDegenerate = 1e-9;
+        if (polygon.rings.empty() || std::abs(signedArea(polygon.rings[0])) < kDegenerate) continue;
+        const bool again = std::any_of(f.parts.begin(), f.parts.end(), [&](const FootprintPart& part) {
+          return glm::length(centroid(part.polygon) - centroid(polygon)) < kNoHeight;
+        });
+        if (!again) f.parts.emplace_back().polygon = std::move(polygon);
+      }
+      f.attributes = std::move(b.attributes);
+      flat.push_back(b.id);
+      s.footprints.push_back(std::move(f));
+      return true;
+    });
+    if (!flat.empty())
+      diagnostics.warn(
+          s.file, "",
+          counted(flat.size(), "solid has", "solids have") + " no height and became footprints: " + list(flat));
+  }
+}
 
 std::vector<Outline> cleanFootprints(const std::vector<Source>& sources, glm::dvec3 origin,
                                      city::Diagnostics& diagnostics) {

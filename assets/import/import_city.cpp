@@ -41,6 +41,7 @@ std::optional<city::City> assembleCity(std::vector<Source> sources, std::span<co
   const std::string crs = chooseCrs(sources, rasters, request.crs, request.fallbackCrs, diagnostics);
   for (Source& s : sources) project(s, crs, options.shift, diagnostics);
   dropFarSources(sources, diagnostics);
+  footprintsFromFlatSolids(sources, diagnostics);
   a.city.crs = crsName(crs);
   a.city.origin = originOf(sources, options.shift.z);
   // A raster alone is a city too: its middle is the origin.
@@ -56,13 +57,15 @@ std::optional<city::City> assembleCity(std::vector<Source> sources, std::span<co
   std::vector<Outline> outlines = cleanFootprints(sources, a.city.origin, diagnostics);
 
   report(options, "terrain", 0);
-  makeTerrain(a, sources, outlines, rasters, crs, planOf(sources, outlines, a.city.origin), messages);
+  const city::Aabb box = planOf(sources, outlines, a.city.origin);
+  makeTerrain(a, sources, outlines, rasters, crs, box, messages);
+  addWaters(a, sources, box);
 
   report(options, "buildings", 0);
   addFootprints(a, outlines);
   report(options, "buildings", 0.5);
   addSurfaceBuildings(a, sources);
-  addSurroundings(a, sources);
+  addSurroundings(a, sources, box);
   if (a.parts.buildings.empty() && a.city.monuments.empty() && !a.city.terrain) return std::nullopt;
 
   report(options, "tiles", 0);

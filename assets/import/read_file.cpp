@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -54,10 +55,35 @@ std::optional<std::string> readText(const std::string& file, city::Diagnostics& 
   return std::move(all).str();
 }
 
+/// Files whose walls all have one colour, and whose roofs do, say nothing of their buildings with it: finishes with
+/// windows tell more. `wanted` decides where it is given.
+void dropPlainColours(Source& s, const std::optional<bool>& wanted, city::Diagnostics& diagnostics) {
+  constexpr size_t kFew = 10;  // buildings: fewer may have been painted by hand
+  std::map<SurfaceKind, std::set<uint32_t>> coloursOf;
+  size_t painted = 0;
+  const auto plain = [&](const Surface& surface) {
+    return surface.material < s.materials.size() && s.materials[surface.material].image.empty();
+  };
+  for (const SurfaceBuilding& b : s.buildings)
+    for (const Surface& surface : b.surfaces)
+      if (plain(surface)) coloursOf[surface.kind].insert(surface.material), ++painted;
+  const bool uniform =
+      std::all_of(coloursOf.begin(), coloursOf.end(), [](const auto& c) { return c.second.size() == 1; });
+  if (painted == 0 || wanted.value_or(!uniform || s.buildings.size() <= kFew)) return;
+  for (SurfaceBuilding& b : s.buildings)
+    for (Surface& surface : b.surfaces)
+      if (plain(surface)) surface.material = kNoMaterial;
+  if (!wanted)
+    diagnostics.warn(s.file, "appearance",
+                     "all surfaces of a kind have one colour, which is not used; colours = true in a scene description "
+                     "would use it");
+}
+
 void finishSource(Source& s, const SceneSource& wanted, const std::string& fallbackCrs,
                   city::Diagnostics& diagnostics) {
   s.defaultHeight = wanted.defaultHeight;
   s.styles = wanted.styles;
+  dropPlainColours(s, wanted.colours, diagnostics);
   if (!wanted.crs.empty()) {
     s.crs = crsFromText(wanted.crs);
     s.zUnit = heightUnitOf(wanted.crs);

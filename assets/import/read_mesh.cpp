@@ -12,8 +12,11 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <sstream>
 
+#include "assets/import/cityjson_geometry.hpp"
+#include "assets/import/gltf.hpp"
 #include "assets/import/pictures.hpp"
 #include "city/aabb.hpp"
 
@@ -212,6 +215,89 @@ void settle(city::TriangleMesh& mesh, std::vector<glm::dvec3>& points, bool yUp,
   for (uint32_t& i : mesh.indices) i = number[i];
 }
 
+/// The bytes of a glTF model whose triangles are compressed with Draco, which assimp as Debian builds it cannot read.
+struct DracoFile {
+  std::string bytes, buffer;  ///< of the file, and of the buffer that it names
+  gltf::Model model;
+};
+
+std::string readAll(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return std::move(text).str();
+}
+
+/// Nothing where the file is not one of these.
+std::unique_ptr<DracoFile> openDraco(const std::string& file, const std::string& extension) {
+  if (extension != ".gltf" && extension != ".glb") return nullptr;
+  auto out = std::make_unique<DracoFile>();
+  out->bytes = readAll(file);
+  if (out->bytes.find("KHR_draco_mesh_compression") == std::string::npos) return nullptr;
+  if (extension == ".glb") {
+    auto model = gltf::openBinary(out->bytes, file, 0);
+    if (!model) return nullptr;
+    out->model = std::move(*model);
+    return out;
+  }
+  out->model.json = gltf::Json::parse(out->bytes, nullptr, false);
+  const gltf::Json& buffers = cityjson::member(out->model.json, "buffers");
+  if (!buffers.is_array() || buffers.empty()) return nullptr;
+  out->model.binFile = findPicture(file, cityjson::textOf(cityjson::member(buffers[0], "uri")));
+  if (out->model.binFile.empty()) return nullptr;
+  out->buffer = readAll(out->model.binFile);
+  out->model.bin = out->buffer;
+  return out;
+}
+
+/// All primitives under all nodes.
+std::vector<SourceMaterial> flatten(const DracoFile& from, const std::string& file, city::TriangleMesh& out,
+                                    std::vector<glm::dvec3>& points, city::Diagnostics& diagnostics) {
+  std::vector<SourceMaterial> materials;
+  std::map<uint64_t, city::MaterialId> numbers;
+  const gltf::Json& meshes = cityjson::member(from.model.json, "meshes");
+  for (const gltf::PlacedNode& placed : gltf::placedNodes(from.model)) {
+    const uint64_t mesh = gltf::countOf(cityjson::member(*placed.node, "mesh"));
+    if (!meshes.is_array() || mesh >= meshes.size()) continue;
+    const gltf::Json& primitives = cityjson::member(meshes[mesh], "primitives");
+    if (!primitives.is_array()) continue;
+    const glm::dmat3 normalMatrix = glm::transpose(glm::inverse(glm::dmat3(placed.worldFromNode)));
+    for (const gltf::Json& primitive : primitives) {
+      std::string why;
+      const auto read = gltf::readPrimitive(from.model, primitive, why);
+      if (!read) {
+        diagnostics.error(file, "mesh " + std::to_string(mesh), why);
+        continue;
+      }
+      if (out.indices.size() / 3 + read->indices.size() / 3 > kMostTriangles) return materials;
+      const gltf::Json& number = cityjson::member(primitive, "material");
+      const auto [found, isNew] = numbers.emplace(
+          gltf::countOf(number), static_cast<city::MaterialId>(std::min<size_t>(materials.size(), 65535)));
+      if (isNew)
+        materials.push_back(
+            gltf::materialOf(from.model, number, file).value_or(SourceMaterial{"stone", {}, glm::vec3(1), true}));
+      const auto base = static_cast<uint32_t>(points.size());
+      for (size_t i = 0; i < read->positions.size(); ++i) {
+        points.emplace_back(placed.worldFromNode * glm::dvec4(read->positions[i], 1));
+        city::Vertex& vertex = out.vertices.emplace_back();
+        vertex.material = found->second;
+        if (!read->uvs.empty()) vertex.uv = read->uvs[i];
+        const glm::dvec3 n = read->normals.empty() ? glm::dvec3(0) : normalMatrix * glm::dvec3(read->normals[i]);
+        vertex.normal = city::packNormal(glm::length(n) > 0 ? glm::vec3(glm::normalize(n)) : glm::vec3(0, 1, 0));
+      }
+      for (size_t i = 0; i < read->indices.size(); i += 3) {
+        bool finite = true;
+        for (size_t k = 0; k < 3; ++k) {
+          const glm::dvec3& p = points[base + read->indices[i + k]];
+          finite = finite && std::isfinite(p.x + p.y + p.z) && glm::length(p) < 1e7;
+        }
+        for (size_t k = 0; finite && k < 3; ++k) out.indices.push_back(base + read->indices[i + k]);
+      }
+    }
+  }
+  return materials;
+}
+
 }  // namespace
 
 bool isMeshFile(const std::string& file) {
@@ -222,20 +308,28 @@ bool isMeshFile(const std::string& file) {
 
 std::optional<MeshContent> readMesh(const std::string& file, const MeshOptions& options,
                                     city::Diagnostics& diagnostics) {
-  Assimp::Importer importer;
-  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-  const aiScene* scene = importer.ReadFile(file, aiProcess_Triangulate | aiProcess_SortByPType);
-  if (!scene || !scene->mRootNode) {
-    const std::string why = importer.GetErrorString();
-    diagnostics.error(file, "", "the mesh cannot be read" + (why.empty() ? "" : ": " + why.substr(0, 300)));
-    return std::nullopt;
-  }
+  const std::string extension = extensionOf(file);
   MeshContent content;
   std::vector<glm::dvec3> points;
   size_t lost = 0;
-  if (!flatten(*scene, content.mesh, points, lost)) {
-    diagnostics.error(file, "", "has more than " + std::to_string(kMostTriangles) + " triangles");
-    return std::nullopt;
+  double unit = options.scale;
+  if (const auto compressed = openDraco(file, extension)) {
+    content.materials = flatten(*compressed, file, content.mesh, points, diagnostics);
+  } else {
+    Assimp::Importer importer;
+    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    const aiScene* scene = importer.ReadFile(file, aiProcess_Triangulate | aiProcess_SortByPType);
+    if (!scene || !scene->mRootNode) {
+      const std::string why = importer.GetErrorString();
+      diagnostics.error(file, "", "the mesh cannot be read" + (why.empty() ? "" : ": " + why.substr(0, 300)));
+      return std::nullopt;
+    }
+    if (!flatten(*scene, content.mesh, points, lost)) {
+      diagnostics.error(file, "", "has more than " + std::to_string(kMostTriangles) + " triangles");
+      return std::nullopt;
+    }
+    content.materials = materialsOf(*scene, file, diagnostics);
+    unit *= statedUnit(*scene, extension);
   }
   if (lost > 0)
     diagnostics.warn(file, "",
@@ -245,12 +339,10 @@ std::optional<MeshContent> readMesh(const std::string& file, const MeshOptions& 
     diagnostics.error(file, "", "holds no triangles");
     return std::nullopt;
   }
-  const std::string extension = extensionOf(file);
   const bool zUp = options.up.empty()
                        ? extension == ".ply" || extension == ".stl" || extension == ".3ds" || extension == ".off"
                        : options.up == "z";
-  content.materials = materialsOf(*scene, file, diagnostics);
-  settle(content.mesh, points, !zUp, options.scale * statedUnit(*scene, extension), options.height);
+  settle(content.mesh, points, !zUp, unit, options.height);
   return content;
 }
 

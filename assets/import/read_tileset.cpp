@@ -1,5 +1,4 @@
-// Based on: OGC 18-053r2 (3D Tiles 1.0), §7 tiles and §9 batched 3D models; Khronos glTF 2.0 specification, §4.4 (GLB)
-// and §3.6 (accessors).
+// Based on: OGC 18-053r2 (3D Tiles 1.0), §7 tiles and §9 batched 3D models.
 #include "assets/import/read_tileset.hpp"
 
 #include <ogr_spatialref.h>
@@ -17,7 +16,7 @@
 #include <sstream>
 
 #include "assets/import/cityjson_geometry.hpp"
-#include "assets/import/pictures.hpp"
+#include "assets/import/gltf.hpp"
 #include "assets/import/projection.hpp"
 
 namespace vicus::assets {
@@ -28,6 +27,9 @@ using cityjson::Json;
 using cityjson::member;
 using cityjson::textOf;
 using Transform = glm::dmat4;
+using gltf::countOf;
+using gltf::matrixOf;
+using gltf::wordAt;
 
 constexpr size_t kMostTiles = 100'000;
 constexpr size_t kMostPoints = 50'000'000;
@@ -46,112 +48,6 @@ Json parseQuietly(std::string_view text) {
   return Json::parse(text, nullptr, false);
 }
 
-uint64_t countOf(const Json& value, uint64_t otherwise = UINT64_MAX) {
-  return value.is_number_unsigned() ? value.get<uint64_t>() : otherwise;
-}
-
-std::optional<Transform> matrixOf(const Json& value) {
-  if (!value.is_array() || value.size() != 16) return std::nullopt;
-  Transform m(1);
-  for (int k = 0; k < 16; ++k) {
-    const Json& v = value[static_cast<size_t>(k)];
-    if (!v.is_number()) return std::nullopt;
-    m[k / 4][k % 4] = v.get<double>();
-  }
-  return m;
-}
-
-uint32_t wordAt(std::string_view bytes, size_t at) {
-  uint32_t v = 0;
-  if (at + 4 <= bytes.size()) std::memcpy(&v, bytes.data() + at, 4);
-  return v;
-}
-
-/// A glTF binary: its JSON and the place of its bytes in the file.
-struct Glb {
-  Json json;
-  std::string_view bin;
-  size_t binOffset = 0;  ///< in the file
-};
-
-std::optional<Glb> openGlb(std::string_view bytes, size_t offsetInFile) {
-  if (bytes.size() < 20 || bytes.substr(0, 4) != "glTF") return std::nullopt;
-  Glb glb;
-  size_t at = 12;
-  while (at + 8 <= bytes.size()) {
-    const size_t length = wordAt(bytes, at);
-    const std::string_view type = bytes.substr(at + 4, 4);
-    at += 8;
-    if (length > bytes.size() - at) return std::nullopt;
-    if (type == "JSON") glb.json = parseQuietly(bytes.substr(at, length));
-    if (type.substr(0, 3) == "BIN") glb.bin = bytes.substr(at, length), glb.binOffset = offsetInFile + at;
-    at += length;
-  }
-  if (!glb.json.is_object()) return std::nullopt;
-  return glb;
-}
-
-/// Numbers of an accessor; invariant: every element lies within the file's bytes.
-class Accessor {
- public:
-  Accessor(const Glb& glb, const Json& number) : bytes_(glb.bin) {
-    const Json& accessors = member(glb.json, "accessors");
-    const uint64_t n = countOf(number);
-    if (!accessors.is_array() || n >= accessors.size()) return;
-    const Json& a = accessors[n];
-    const Json& views = member(glb.json, "bufferViews");
-    const uint64_t v = countOf(member(a, "bufferView"));
-    if (!views.is_array() || v >= views.size() || !member(a, "sparse").is_null()) return;
-    if (countOf(member(views[v], "buffer"), 0) != 0) return;
-    type_ = countOf(member(a, "componentType"), 0);
-    static const std::map<std::string, size_t> kComponents = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}};
-    const auto components = kComponents.find(textOf(member(a, "type")));
-    if (components == kComponents.end() || width() == 0) return;
-    components_ = components->second;
-    const uint64_t stride = countOf(member(views[v], "byteStride"), 0);
-    stride_ = stride > 0 ? stride : width() * components_;
-    const uint64_t begin = countOf(member(views[v], "byteOffset"), 0), more = countOf(member(a, "byteOffset"), 0);
-    if (begin > bytes_.size() || more > bytes_.size() || begin + more > bytes_.size() || stride_ > 4096) return;
-    begin_ = begin + more;
-    const uint64_t wanted = countOf(member(a, "count"), 0), element = width() * components_;
-    if (bytes_.size() - begin_ < element) return;
-    count_ = std::min<uint64_t>(wanted, (bytes_.size() - begin_ - element) / stride_ + 1);
-  }
-  size_t count() const { return count_; }
-  double at(size_t element, size_t component) const {
-    const char* p = bytes_.data() + begin_ + element * stride_ + component * width();
-    const auto as = [p](auto value) {
-      std::memcpy(&value, p, sizeof value);
-      return static_cast<double>(value);
-    };
-    switch (type_) {
-      case 5120:
-        return as(int8_t{});
-      case 5121:
-        return as(uint8_t{});
-      case 5122:
-        return as(int16_t{});
-      case 5123:
-        return as(uint16_t{});
-      case 5125:
-        return as(uint32_t{});
-      default:
-        return as(float{});
-    }
-  }
-  size_t components() const { return components_; }
-
- private:
-  size_t width() const {
-    if (type_ == 5120 || type_ == 5121) return 1;
-    if (type_ == 5122 || type_ == 5123) return 2;
-    return type_ == 5125 || type_ == 5126 ? 4 : 0;
-  }
-  std::string_view bytes_;
-  uint64_t type_ = 0;
-  size_t components_ = 0, stride_ = 0, begin_ = 0, count_ = 0;
-};
-
 class Reader {
  public:
   Reader(std::string file, city::Diagnostics& diagnostics) : file_(std::move(file)), diagnostics_(diagnostics) {
@@ -166,10 +62,11 @@ class Reader {
 
  private:
   void addTile(const Json& tile, const fs::path& folder, const Transform& parent, bool replace, int depth);
-  void addGlb(const Glb& glb, const std::string& path, const Json& batchTable, const Transform& worldFromTile);
-  void addPrimitive(const Glb& glb, const std::string& path, const Json& primitive, const Transform& worldFromNode,
-                    std::map<uint64_t, SurfaceBuilding>& batches);
-  uint32_t materialOf(const Glb& glb, const std::string& path, const Json& number);
+  void addGlb(const gltf::Model& model, const std::string& path, const Json& batchTable,
+              const Transform& worldFromTile);
+  void addPrimitive(const gltf::Model& model, const std::string& path, const Json& primitive,
+                    const Transform& worldFromNode, std::map<uint64_t, SurfaceBuilding>& batches);
+  uint32_t materialOf(const gltf::Model& model, const std::string& path, const Json& number);
   void complain(const std::string& place, const std::string& message) {
     constexpr size_t kMost = 20;
     if (++complaints_ <= kMost) diagnostics_.error(file_, place, message);
@@ -182,144 +79,55 @@ class Reader {
   size_t tiles_ = 0, points_ = 0, complaints_ = 0;
 };
 
-uint32_t Reader::materialOf(const Glb& glb, const std::string& path, const Json& number) {
+uint32_t Reader::materialOf(const gltf::Model& model, const std::string& path, const Json& number) {
   const uint64_t n = countOf(number);
-  const Json& materials = member(glb.json, "materials");
-  if (!materials.is_array() || n >= materials.size()) return kNoMaterial;
   const auto known = materialNumbers_.find({path, n});
   if (known != materialNumbers_.end()) return known->second;
-  const Json& pbr = member(materials[n], "pbrMetallicRoughness");
-  SourceMaterial material;
-  material.name = fs::path(path).filename().string() + " " + std::to_string(n);
-  const Json& factor = member(pbr, "baseColorFactor");
-  for (size_t k = 0; k < 3; ++k)
-    if (factor.is_array() && k < factor.size() && factor[k].is_number())
-      material.colour[static_cast<int>(k)] = std::clamp(factor[k].get<float>(), 0.0f, 1.0f);
-  const Json& textures = member(glb.json, "textures");
-  const uint64_t t = countOf(member(member(pbr, "baseColorTexture"), "index"));
-  const Json& images = member(glb.json, "images");
-  if (textures.is_array() && t < textures.size()) {
-    const uint64_t i = countOf(member(textures[t], "source"));
-    if (images.is_array() && i < images.size()) {
-      const Json& views = member(glb.json, "bufferViews");
-      const uint64_t v = countOf(member(images[i], "bufferView"));
-      if (views.is_array() && v < views.size()) {
-        const uint64_t begin = countOf(member(views[v], "byteOffset"), 0),
-                       length = countOf(member(views[v], "byteLength"), 0);
-        if (begin < glb.bin.size() && length <= glb.bin.size() - begin)
-          material.image = path + "#bytes=" + std::to_string(glb.binOffset + begin) + "+" + std::to_string(length);
-      } else {
-        material.image = findPicture(path, textOf(member(images[i], "uri")));
-      }
-    }
-  }
   uint32_t result = kNoMaterial;
-  if (!material.image.empty() || material.colour != glm::vec3(1)) {
+  if (auto material = gltf::materialOf(model, number, path);
+      material && (!material->image.empty() || material->colour != glm::vec3(1))) {
     result = static_cast<uint32_t>(source.materials.size());
-    source.materials.push_back(std::move(material));
+    source.materials.push_back(std::move(*material));
   }
   materialNumbers_[{path, n}] = result;
   return result;
 }
 
-void Reader::addPrimitive(const Glb& glb, const std::string& path, const Json& primitive,
+void Reader::addPrimitive(const gltf::Model& model, const std::string& path, const Json& primitive,
                           const Transform& worldFromNode, std::map<uint64_t, SurfaceBuilding>& batches) {
-  if (countOf(member(primitive, "mode"), 4) != 4) return complain(path, "only triangles are read");
-  if (!member(member(primitive, "extensions"), "KHR_draco_mesh_compression").is_null())
-    return complain(path, "its triangles are compressed with Draco, which is not read");
-  const Json& attributes = member(primitive, "attributes");
-  const Accessor positions(glb, member(attributes, "POSITION")), uvs(glb, member(attributes, "TEXCOORD_0")),
-      indices(glb, member(primitive, "indices"));
-  const Accessor batchIds(glb, member(attributes, "_BATCHID").is_null() ? member(attributes, "_FEATURE_ID_0")
-                                                                        : member(attributes, "_BATCHID"));
-  if (positions.count() == 0 || positions.components() != 3) return complain(path, "a primitive has no positions");
-  const uint32_t material = materialOf(glb, path, member(primitive, "material"));
-  const bool indexed = !member(primitive, "indices").is_null();
-  const size_t corners = indexed ? indices.count() : positions.count();
-  points_ += corners;
+  std::string why;
+  const auto read = gltf::readPrimitive(model, primitive, why);
+  if (!read) return complain(path, why);
+  const uint32_t material = materialOf(model, path, member(primitive, "material"));
+  points_ += read->indices.size();
   if (points_ > kMostPoints) return complain(path, "more than 50 million corners in all: the rest is left out");
-  for (size_t c = 0; c + 2 < corners; c += 3) {
-    size_t corner[3];
-    bool good = true;
-    for (size_t k = 0; k < 3; ++k) {
-      const double index = indexed ? indices.at(c + k, 0) : static_cast<double>(c + k);
-      good = good && index >= 0 && index < static_cast<double>(positions.count());
-      corner[k] = good ? static_cast<size_t>(index) : 0;
-    }
-    if (!good) continue;
-    const double id = corner[0] < batchIds.count() ? batchIds.at(corner[0], 0) : 0;
-    SurfaceBuilding& building = batches[id >= 0 && id < 1e9 ? static_cast<uint64_t>(id) : 0];
+  for (size_t c = 0; c < read->indices.size(); c += 3) {
+    SurfaceBuilding& building = batches[read->batchIds.empty() ? 0 : read->batchIds[read->indices[c]]];
     Surface& surface = building.surfaces.emplace_back();
     surface.material = material;
     std::vector<uint32_t>& ring = surface.rings.emplace_back();
-    std::vector<glm::vec2> coordinates;
-    for (const size_t i : corner) {
-      const glm::dvec4 p(positions.at(i, 0), -positions.at(i, 2), positions.at(i, 1), 1);  // y up to z up
+    if (!read->uvs.empty()) surface.uvs.emplace_back();
+    for (size_t k = 0; k < 3; ++k) {
+      const uint32_t i = read->indices[c + k];
       ring.push_back(static_cast<uint32_t>(building.points.size()));
-      building.points.emplace_back(worldFromNode * p);
-      // Texture rows count from the top in glTF.
-      if (i < uvs.count() && uvs.components() == 2)
-        coordinates.emplace_back(static_cast<float>(uvs.at(i, 0)), 1 - static_cast<float>(uvs.at(i, 1)));
+      building.points.emplace_back(worldFromNode * glm::dvec4(read->positions[i], 1));
+      if (!read->uvs.empty()) surface.uvs[0].push_back(read->uvs[i]);
     }
-    if (coordinates.size() == 3) surface.uvs.push_back(std::move(coordinates));
   }
 }
 
-/// The matrix of a node, from its own matrix or its parts, in a frame whose z is up.
-Transform nodeTransform(const Json& node) {
-  const auto list = [&](const char* name, size_t count, std::vector<double> otherwise) {
-    const Json& v = member(node, name);
-    if (!v.is_array() || v.size() != count) return otherwise;
-    for (size_t k = 0; k < count; ++k)
-      if (v[k].is_number()) otherwise[k] = v[k].get<double>();
-    return otherwise;
-  };
-  Transform m(1);
-  if (const auto whole = matrixOf(member(node, "matrix"))) {
-    m = *whole;
-  } else {
-    const auto t = list("translation", 3, {0, 0, 0}), s = list("scale", 3, {1, 1, 1}),
-               q = list("rotation", 4, {0, 0, 0, 1});
-    const double x = q[0], y = q[1], z = q[2], w = q[3];
-    m[0] = glm::dvec4(1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w), 0) * s[0];
-    m[1] = glm::dvec4(2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w), 0) * s[1];
-    m[2] = glm::dvec4(2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y), 0) * s[2];
-    m[3] = glm::dvec4(t[0], t[1], t[2], 1);
-  }
+void Reader::addGlb(const gltf::Model& model, const std::string& path, const Json& batchTable,
+                    const Transform& worldFromTile) {
+  std::map<uint64_t, SurfaceBuilding> batches;
+  const Json& meshes = member(model.json, "meshes");
   Transform up(1);  // y up to z up
   up[1] = {0, 0, 1, 0}, up[2] = {0, -1, 0, 0};
-  return up * m * glm::transpose(up);
-}
-
-void Reader::addGlb(const Glb& glb, const std::string& path, const Json& batchTable, const Transform& worldFromTile) {
-  std::map<uint64_t, SurfaceBuilding> batches;
-  const Json &nodes = member(glb.json, "nodes"), &meshes = member(glb.json, "meshes"),
-             &scenes = member(glb.json, "scenes");
-  const uint64_t sceneNumber = countOf(member(glb.json, "scene"), 0);
-  struct Open {
-    uint64_t node;
-    Transform parent;
-    int depth;
-  };
-  std::vector<Open> open;
-  if (scenes.is_array() && sceneNumber < scenes.size())
-    if (const Json& roots = member(scenes[sceneNumber], "nodes"); roots.is_array())
-      for (const Json& root : roots) open.push_back({countOf(root), worldFromTile, 0});
-  size_t visited = 0;
-  constexpr size_t kMostNodes = 1'000'000;
-  constexpr int kDeepest = 64;
-  while (!open.empty() && ++visited < kMostNodes) {
-    const Open here = open.back();
-    open.pop_back();
-    if (!nodes.is_array() || here.node >= nodes.size() || here.depth > kDeepest) continue;
-    const Json& node = nodes[here.node];
-    const Transform transform = here.parent * nodeTransform(node);
-    const uint64_t mesh = countOf(member(node, "mesh"));
-    if (meshes.is_array() && mesh < meshes.size())
-      if (const Json& primitives = member(meshes[mesh], "primitives"); primitives.is_array())
-        for (const Json& primitive : primitives) addPrimitive(glb, path, primitive, transform, batches);
-    if (const Json& children = member(node, "children"); children.is_array())
-      for (const Json& child : children) open.push_back({countOf(child), transform, here.depth + 1});
+  for (const gltf::PlacedNode& placed : gltf::placedNodes(model)) {
+    const uint64_t mesh = countOf(member(*placed.node, "mesh"));
+    if (!meshes.is_array() || mesh >= meshes.size()) continue;
+    if (const Json& primitives = member(meshes[mesh], "primitives"); primitives.is_array())
+      for (const Json& primitive : primitives)
+        addPrimitive(model, path, primitive, worldFromTile * up * placed.worldFromNode, batches);
   }
   const std::string name = fs::path(path).stem().string();
   for (auto& [id, building] : batches) {
@@ -357,7 +165,7 @@ void Reader::addModel(const fs::path& path, const Transform& worldFromTile) {
     offset = before;
     rest.remove_prefix(before);
   }
-  const auto glb = openGlb(rest, offset);
+  const auto glb = gltf::openBinary(rest, path.string(), offset);
   if (!glb) return complain(path.string(), "holds no glTF binary that can be read");
   addGlb(*glb, path.string(), batchTable, transform);
 }

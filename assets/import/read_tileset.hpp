@@ -14,8 +14,8 @@ bool isTileset(std::string_view text);
 
 /// The finest content of every tile (where tiles refine by adding, that of all): one building for each batch id, else
 /// for each tile, with attributes from the batch table. Earth-centred coordinates become longitude, latitude and height
-/// over the ellipsoid; others are metres of their own. Reads uncompressed triangles with positions, base colours and
-/// pictures; what uses extensions (Draco, quantisation, instanced or point content) is left out by name.
+/// over the ellipsoid; others are metres of their own. Reads triangles with positions, base colours and
+/// pictures, also compressed with Draco; instanced and point content is left out by name.
 Source readTileset(const std::string& file, city::Diagnostics& diagnostics);
 
 /// The same for one b3dm file alone.

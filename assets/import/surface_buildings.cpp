@@ -56,7 +56,7 @@ void addSurfaceBuildings(Assembly& a, const std::vector<Source>& sources) {
       built[i] = buildFromSurfaces(local, s.buildings[i].id, options, reports[i]);
     });
 
-    std::vector<std::string> turned, repaired, lost;
+    std::vector<std::string> turned, repaired, bent, lost;
     double highest = 0, deepest = 0;
     std::string highestId, deepestId;
     for (size_t i = 0; i < count; ++i) {
@@ -69,6 +69,7 @@ void addSurfaceBuildings(Assembly& a, const std::vector<Source>& sources) {
       }
       if (r.turned > 0) turned.push_back(b.id);
       if (r.repaired > 0) repaired.push_back(b.id);
+      if (r.bent > 0) bent.push_back(b.id);
       if (r.leftOut > 0) lost.push_back(b.id + " (" + std::to_string(r.leftOut) + ")");
       if (r.floating > highest) highest = r.floating, highestId = b.id;
       if (-r.floating > deepest) deepest = -r.floating, deepestId = b.id;
@@ -89,6 +90,10 @@ void addSurfaceBuildings(Assembly& a, const std::vector<Source>& sources) {
       a.diagnostics.warn(s.file, "",
                          counted(repaired.size(), "building has", "buildings have") +
                              " surfaces that cross or touch themselves, which were repaired: " + list(repaired));
+    if (!bent.empty())
+      a.diagnostics.warn(s.file, "",
+                         counted(bent.size(), "building has", "buildings have") +
+                             " surfaces that are not flat to 2 cm, which were cut into triangles: " + list(bent));
     if (!lost.empty())
       a.diagnostics.warn(s.file, "",
                          counted(lost.size(), "building has", "buildings have") +

@@ -34,6 +34,7 @@ struct Face {
   glm::dvec3 areaVector{0};                 ///< normal times area, holes taken off
   glm::dvec3 normal{0, 0, 1};
   bool bothSides = false;
+  bool bent = false;  ///< some point lies off the plane of the others
 };
 
 glm::dvec3 newell(const std::vector<glm::dvec3>& points, const std::vector<uint32_t>& ring) {
@@ -49,6 +50,16 @@ struct PointHash {
     return (h(p.x) * 31 + h(p.y)) * 0x9e3779b97f4a7c15ULL ^ h(p.z);
   }
 };
+
+/// Does a point of the outer ring lie more than 2 cm off the plane through their middle?
+bool isBent(const Face& face, const std::vector<glm::dvec3>& points) {
+  constexpr double kFlat = 0.02;
+  glm::dvec3 middle(0);
+  for (const uint32_t i : face.rings[0]) middle += points[i];
+  middle /= static_cast<double>(face.rings[0].size());
+  return std::any_of(face.rings[0].begin(), face.rings[0].end(),
+                     [&](uint32_t i) { return std::abs(glm::dot(points[i] - middle, face.normal)) > kFlat; });
+}
 
 /// Merges points at one place and drops what has no area.
 std::vector<Face> facesOf(const SurfaceBuilding& building, std::vector<glm::dvec3>& points, SurfaceReport& report) {
@@ -93,6 +104,8 @@ std::vector<Face> facesOf(const SurfaceBuilding& building, std::vector<glm::dvec
         double holes = 0;
         for (size_t r = 1; r < face.rings.size(); ++r) holes += glm::length(newell(points, face.rings[r]));
         face.areaVector = face.normal * std::max(0.0, outer - holes);
+        face.bent = isBent(face, points);
+        if (face.bent) ++report.bent;
         faces.push_back(std::move(face));
         continue;
       }
@@ -325,7 +338,7 @@ Span spanOf(const Face& face, const Axes& axes, const std::vector<glm::dvec3>& p
 /// edge to the lowest of its upper one. Nothing where the outline goes back on itself.
 std::optional<city::OccluderLine> occluderOf(const Face& face, const Axes& axes,
                                              const std::vector<glm::dvec3>& points) {
-  if (std::abs(face.normal.z) > 0.01 || face.rings.size() != 1 || face.bothSides) return std::nullopt;
+  if (std::abs(face.normal.z) > 0.01 || face.rings.size() != 1 || face.bothSides || face.bent) return std::nullopt;
   const auto& ring = face.rings[0];
   const size_t n = ring.size();
   const auto along = [&](size_t i) { return glm::dot(points[ring[i % n]], axes.u); };
@@ -377,6 +390,7 @@ class SurfaceBuilder {
   double floating() const { return gaps_ > 0 ? gapSum_ / gaps_ : 0; }
 
  private:
+  double facadeFoot(const Face& face, const Span& span) const;
   void addSkirt(const Face& face, const Axes& axes, bool wallHides);
 
   city::BuildingBuilder& builder_;
@@ -427,7 +441,7 @@ void SurfaceBuilder::add(const Face& face) {
   }
   std::vector<glm::vec3> positions;
   std::vector<glm::vec2> uvs;
-  const double storeys = storeysIn(span.height());
+  const double foot = bays > 0 ? facadeFoot(face, span) : span.bottom, storeys = storeysIn(span.top - foot);
   const bool painted = face.material < options_.materials.size();
   const city::MaterialId material = painted ? options_.materials[face.material] : id(finish);
   for (size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -439,7 +453,7 @@ void SurfaceBuilder::add(const Face& face) {
     }
     const double u = glm::dot(p, axes.u), v = glm::dot(p, axes.v);
     uvs.push_back(bays > 0
-                      ? glm::vec2((u - span.left) / span.width() * bays, (p.z - span.bottom) / span.height() * storeys)
+                      ? glm::vec2((u - span.left) / span.width() * bays, (p.z - foot) / (span.top - foot) * storeys)
                       : glm::vec2(u, plane == PlaneKind::Wall ? p.z : v));
   }
   const bool opening = face.kind == SurfaceKind::Window || face.kind == SurfaceKind::Door;
@@ -458,6 +472,20 @@ void SurfaceBuilder::add(const Face& face) {
     if (line) builder_.addOccluder(*line);
     if (options_.groundAt) addSkirt(face, axes, line.has_value());
   }
+}
+
+/// Where the lowest storey of a wall begins: at its foot, or where the ground stands higher against it, there, so that
+/// no window sinks. At least one storey of the wall is left.
+double SurfaceBuilder::facadeFoot(const Face& face, const Span& span) const {
+  if (!options_.groundAt) return span.bottom;
+  double ground = span.bottom;
+  const auto& ring = face.rings[0];
+  for (size_t i = 0; i < ring.size(); ++i) {
+    const glm::dvec3 a = points_[ring[i]], b = points_[ring[(i + 1) % ring.size()]];
+    for (const glm::dvec3& p : {a, (a + b) / 2.0})
+      if (const double h = options_.groundAt(glm::dvec2(p)); h > ground) ground = h;
+  }
+  return std::min(ground, std::max(span.bottom, span.top - kSmallestFacadeHeight));
 }
 
 /// Lengthens a wall's foot to below the ground, in the wall's own plane. Under a wall that hides what is behind it, the

@@ -16,6 +16,7 @@ namespace vicus::assets {
 struct SurfaceReport {
   uint32_t turned = 0;    ///< wound the wrong way round and turned
   uint32_t repaired = 0;  ///< crossed or touched themselves
+  uint32_t bent = 0;      ///< not flat: drawn as the triangles that its outline gives on its mean plane
   uint32_t leftOut = 0;   ///< no area, or no triangles could be made
   double floating = 0;    ///< metres that the lowest walls hung above the ground before they were lengthened; negative:
                           ///< they reach into it

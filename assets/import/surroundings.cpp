@@ -185,8 +185,11 @@ bool insidePolygon(const Polygon& polygon, glm::dvec2 p) {
   return inside;
 }
 
-/// Sinks the ground under water to a bed below its level.
-void digBed(city::HeightField& terrain, const Polygon& polygon, double level) {
+/// Ground higher than this above the sea's level is land, whatever a coarse coast line says: metres.
+constexpr double kTide = 2;
+
+/// Sinks the ground under water to a bed below its level, where it is not higher than `most` above that.
+void digBed(city::HeightField& terrain, const Polygon& polygon, double level, double most) {
   constexpr double kDepth = 1.5;
   glm::dvec2 low(INFINITY), high(-INFINITY);
   for (const glm::dvec2& p : polygon.rings[0]) low = glm::min(low, p), high = glm::max(high, p);
@@ -198,14 +201,15 @@ void digBed(city::HeightField& terrain, const Polygon& polygon, double level) {
     for (int x = first.x; x <= last.x; ++x)
       if (insidePolygon(polygon, terrain.origin + terrain.spacing * glm::dvec2(x, y))) {
         float& h = terrain.at(x, y);
-        if (!(h <= static_cast<float>(level - kDepth))) h = static_cast<float>(level - kDepth);
+        if (h > static_cast<float>(level - kDepth) && h < static_cast<float>(level + most))
+          h = static_cast<float>(level - kDepth);
       }
 }
 
-void addWaterBody(Place& place, const std::string& name, const Polygon& polygon, double level) {
+void addWaterBody(Place& place, const std::string& name, const Polygon& polygon, double level, double most) {
   const Triangulation cut = triangulate(polygon);
   if (cut.triangles.empty()) return;
-  if (place.a.city.terrain) digBed(*place.a.city.terrain, polygon, level);
+  if (place.a.city.terrain) digBed(*place.a.city.terrain, polygon, level, most);
   place.a.city.water.push_back({name, level, cut.points, cut.triangles});
 }
 
@@ -226,43 +230,92 @@ void addWater(Place& place, const Source& source) {
         // A basin smaller than the ground's grid cannot sink into it: it stands a hand above.
         const bool small = place.a.city.terrain &&
                            area(polygon) < 4 * place.a.city.terrain->spacing.x * place.a.city.terrain->spacing.y;
-        addWaterBody(place, water.name, polygon, small ? banks.back() + 0.15 : banks[banks.size() / 4]);
+        addWaterBody(place, water.name, polygon, small ? banks.back() + 0.15 : banks[banks.size() / 4], INFINITY);
       }
     }
 }
 
-/// The sea: what lies on the right of the coast lines, at altitude 0, as far as the terrain reaches.
-void addSea(Place& place, const Source& source) {
-  if (source.surroundings.coast.empty() || !place.a.city.terrain) return;
-  const city::Aabb box = place.a.city.terrain->bounds();
-  const glm::dvec2 low(box.min), high(box.max);
-  std::vector<Ring> lines{{low, {high.x, low.y}, high, {low.x, high.y}, low}};
-  std::vector<glm::dvec2> seaward;
+/// Coast lines joined end to start, closed ones with their first point again at the end.
+std::vector<Ring> joinedCoasts(const Place& place, const Source& source) {
+  std::map<std::pair<double, double>, size_t> startsAt;
+  std::vector<Ring> lines;
   for (const auto& coast : source.surroundings.coast) {
     Ring& line = lines.emplace_back();
-    for (const glm::dvec2& q : coast) line.push_back(place.local(q));
-    for (size_t i = 0; i + 1 < line.size(); ++i) {
-      const glm::dvec2 along = line[i + 1] - line[i];
-      const double length = glm::length(along);
-      if (length > 0) seaward.push_back((line[i] + line[i + 1]) / 2.0 + glm::dvec2(along.y, -along.x) / length * 0.05);
+    for (const glm::dvec2& q : coast) line.push_back(snapped(place.local(q)));
+    if (line.size() < 2) lines.pop_back();
+  }
+  for (size_t i = 0; i < lines.size(); ++i) startsAt.emplace(std::pair(lines[i][0].x, lines[i][0].y), i);
+  std::vector<uint8_t> taken(lines.size(), 0), follows(lines.size(), 0);
+  const auto next = [&](const Ring& line) {
+    const auto found = startsAt.find({line.back().x, line.back().y});
+    return found == startsAt.end() ? lines.size() : found->second;
+  };
+  for (const Ring& line : lines)
+    if (const size_t n = next(line); n < lines.size()) follows[n] = 1;
+  std::vector<Ring> out;
+  for (const bool begins : {true, false})  // chains from their first line; what is left are rings
+    for (size_t i = 0; i < lines.size(); ++i) {
+      if (taken[i] || (begins && follows[i])) continue;
+      taken[i] = 1;
+      Ring chain = lines[i];
+      for (size_t n = next(chain); n < lines.size() && !taken[n]; n = next(chain)) {
+        taken[n] = 1;
+        chain.insert(chain.end(), lines[n].begin() + 1, lines[n].end());
+      }
+      out.push_back(std::move(chain));
     }
-  }
-  const double level = place.a.options.shift.z - place.a.city.origin.z;
-  for (const Polygon& face : polygonise(lines)) {
-    const glm::dvec2 middle = centroid(face);
-    if (middle.x < low.x || middle.x > high.x || middle.y < low.y || middle.y > high.y) continue;
-    const bool sea = std::any_of(seaward.begin(), seaward.end(), [&](glm::dvec2 p) { return insidePolygon(face, p); });
-    if (!sea) continue;
-    for (const Polygon& clean : cleanPolygon(face).polygons) addWaterBody(place, "sea", clean, level);
-  }
+  return out;
 }
 
-city::Aabb shownPlan(const Assembly& a) {
-  city::Aabb box;
-  for (const city::Instance& i : a.parts.buildings) {
-    const city::Aabbf& local = a.city.buildingTypes[i.geometry].bounds;
-    box.extend(i.position + glm::dvec3(local.min)), box.extend(i.position + glm::dvec3(local.max));
+/// The sea: what lies on the right of the coast lines, at altitude 0, as far as the terrain reaches. A coast that ends
+/// within the terrain goes on the way that it came, out of it; land that is higher than the sea stays above it all the
+/// same.
+void addSea(Place& place, const Source& source) {
+  if (source.surroundings.coast.empty() || !place.a.city.terrain) return;
+  city::HeightField& terrain = *place.a.city.terrain;
+  const city::Aabb box = terrain.bounds();
+  const glm::dvec2 low(box.min), high(box.max);
+  const auto inside = [&](glm::dvec2 p) { return p.x > low.x && p.y > low.y && p.x < high.x && p.y < high.y; };
+  const double beyond = glm::length(high - low);
+  std::vector<Ring> lines{{low, {high.x, low.y}, high, {low.x, high.y}, low}};
+  std::vector<glm::dvec2> seaward, landward;
+  for (Ring& coast : joinedCoasts(place, source)) {
+    for (size_t i = 0; i + 1 < coast.size(); ++i) {
+      const glm::dvec2 along = coast[i + 1] - coast[i], middle = (coast[i] + coast[i + 1]) / 2.0;
+      const double length = glm::length(along);
+      if (!(length > 0)) continue;
+      const glm::dvec2 right = glm::dvec2(along.y, -along.x) / length * 0.05;
+      if (inside(middle)) seaward.push_back(middle + right), landward.push_back(middle - right);
+    }
+    if (const glm::dvec2 whole = coast.back() - coast.front(); glm::length(whole) > 1) {
+      const glm::dvec2 way = glm::normalize(whole) * beyond;
+      if (inside(coast.front())) coast.insert(coast.begin(), coast.front() - way);
+      if (inside(coast.back())) coast.push_back(coast.back() + way);
+    }
+    lines.push_back(std::move(coast));
   }
+  const double level = place.a.options.shift.z - place.a.city.origin.z;
+  size_t unclear = 0;
+  for (const Polygon& face : polygonise(lines)) {
+    const auto holds = [&](glm::dvec2 p) { return insidePolygon(face, p); };
+    glm::dvec2 faceLow(INFINITY), faceHigh(-INFINITY);
+    for (const glm::dvec2& q : face.rings[0]) faceLow = glm::min(faceLow, q), faceHigh = glm::max(faceHigh, q);
+    if (faceHigh.x <= low.x || faceHigh.y <= low.y || faceLow.x >= high.x || faceLow.y >= high.y) continue;
+    if (!std::any_of(seaward.begin(), seaward.end(), holds)) continue;
+    if (std::any_of(landward.begin(), landward.end(), holds)) {
+      ++unclear;
+      continue;
+    }
+    for (const Polygon& clean : cleanPolygon(face).polygons) addWaterBody(place, "sea", clean, level, kTide);
+  }
+  if (unclear > 0)
+    place.a.diagnostics.warn(
+        source.file, "coastline",
+        counted(unclear, "piece of sea is", "pieces of sea are") + " left out: the coast lines about it do not close");
+}
+
+/// The plan that is shown: that of the buildings with a margin, else the terrain's.
+city::Aabb shownPlan(const Assembly& a, city::Aabb box) {
   if (box.empty() && a.city.terrain) return a.city.terrain->bounds();
   if (box.empty()) return {glm::dvec3(-kMargin), glm::dvec3(kMargin)};
   box.min -= kMargin, box.max += kMargin;
@@ -271,11 +324,15 @@ city::Aabb shownPlan(const Assembly& a) {
 
 }  // namespace
 
-void addSurroundings(Assembly& a, std::vector<Source>& sources) {
-  Place place{a, shownPlan(a)};
+void addWaters(Assembly& a, const std::vector<Source>& sources, const city::Aabb& box) {
+  Place place{a, shownPlan(a, box)};
   for (const Source& s : sources) addSea(place, s);
   for (const Source& s : sources) addWater(place, s);
   if (a.city.terrain) a.city.terrain->updateRange();
+}
+
+void addSurroundings(Assembly& a, std::vector<Source>& sources, const city::Aabb& box) {
+  Place place{a, shownPlan(a, box)};
   for (Source& s : sources) {
     addMeshes(place, s);
     addStreets(place, s);

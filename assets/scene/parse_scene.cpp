@@ -306,6 +306,8 @@ void readRoot(Table& root, SceneDescription& scene) {
     t.text("layer", s.layer);
     t.number("lod", s.lod, 0, 10);
     t.number("default_height", s.defaultHeight, 0.5, 1000);
+    bool colours = false;
+    if (t.find("colours")) t.flag("colours", colours), s.colours = colours;
     readStyles(t, s.styles);
   });
   readStyles(root, scene.styles);

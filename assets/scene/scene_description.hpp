@@ -22,6 +22,7 @@ struct SceneSource {
   double lod = 10;                ///< finest level of detail that is wanted
   double defaultHeight = 6;       ///< metres, of buildings that state none
   std::vector<StyleRule> styles;  ///< before those of the scene
+  std::optional<bool> colours;    ///< plain colours of the file's surfaces: used, or not; nothing: where they differ
 };
 
 struct SceneTerrain {

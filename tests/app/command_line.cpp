@@ -32,7 +32,7 @@ class CommandLine : public testing::Test {
 
   int vicus(std::vector<std::string> arguments) {
     out_.str(""), err_.str("");
-    return run(arguments, {out_, err_, false, ""});
+    return run(arguments, {out_, err_, false, "", ""});
   }
   std::string file(const std::string& name) const { return (folder_ / name).string(); }
   std::string write(const std::string& name, const std::string& text) const {
@@ -321,7 +321,7 @@ TEST_F(CommandLine, CheckFindsNothingLost) {
 TEST(Console, TenOfAKindThenACount) {
   std::ostringstream out, err;
   {
-    Console console({out, err, false, ""});
+    Console console({out, err, false, "", ""});
     city::Diagnostics d;
     for (int k = 0; k < 25; ++k)
       d.warn("town.shp", "feature " + std::to_string(k), "ring of " + std::to_string(k) + ".5 m is open");
@@ -343,7 +343,7 @@ TEST(Console, TenOfAKindThenACount) {
 TEST(Console, ProgressIsOneLineAStageElsewhereAndRewrittenInATerminal) {
   std::ostringstream out, plain, terminal;
   for (std::ostringstream* err : {&plain, &terminal}) {
-    Console console({out, *err, err == &terminal, ""});
+    Console console({out, *err, err == &terminal, "", ""});
     for (const double f : {0.0, 0.5, 0.501, 1.0}) console.progress("reading", f);
     console.progress("sorting", std::nan(""));
     console.say("done");

@@ -1,0 +1,260 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <toml++/toml.h>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "assets/scene/scene_description.hpp"
+#include "assets/scene/suggest.hpp"
+#include "assets/scene/write_scene.hpp"
+#include "import_files.hpp"
+
+namespace vicus::assets {
+namespace {
+
+using testing::HasSubstr;
+
+std::string complaints(const std::string& text) {
+  city::Diagnostics d;
+  EXPECT_FALSE(parseScene(text, "town.toml", d)) << text;
+  return messagesOf(d);
+}
+
+/// Two houses of 8 × 6 m in Lambert-93, one of them a church.
+std::string houses() {
+  return geoJson(
+      {feature("Polygon", "[[[700000,6600000],[700008,6600000],[700008,6600006],[700000,6600006],[700000,6600000]]]",
+               R"({"hoch":7,"usage":"Church"})"),
+       feature("Polygon", "[[[700020,6600000],[700028,6600000],[700028,6600006],[700020,6600006],[700020,6600000]]]",
+               R"({"hoch":9,"usage":"house"})")});
+}
+
+TEST(Suggest, DistancesCountLettersAndSwaps) {
+  EXPECT_EQ(editDistance("kitten", "sitting"), 3u);
+  EXPECT_EQ(editDistance("terrian", "terrain"), 1u) << "a swap of neighbours";
+  EXPECT_EQ(editDistance("", "abc"), 3u);
+  const std::string known[] = {"sources", "terrain", "views"};
+  EXPECT_EQ(nearest("source", known), "sources");
+  EXPECT_EQ(nearest("terain", known), "terrain");
+  EXPECT_EQ(nearest("elephant", known), "");
+}
+
+TEST(SceneDescription, EverythingIsRead) {
+  city::Diagnostics d;
+  const auto scene = parseScene(R"(
+name = "Town"
+crs = "EPSG:2154"
+folder = "data"
+[terrain]
+files = ["a.tif", "b.tif"]
+unit = "dm"
+[[sources]]
+file = "houses.shp"
+height_column = "hoch"
+lod = 2
+default_height = 4
+[[sources.styles]]
+where = [{ attribute = "usage", equals = "church" }, { attribute = "built", below = 1700 }]
+facade = "facade-limestone"
+roof = "slate"
+[[monuments]]
+name = "Venus"
+file = "venus.gltf"
+lonlat = [2.5, 48.8]
+heading = 90
+height = 2.5
+[[views]]
+name = "square"
+position = [700000, 6600000]
+heading = 45
+[[tours]]
+name = "walk"
+[[tours.keys]]
+time = 0
+position = [1, 2]
+[[tours.keys]]
+time = 10
+position = [3, 4]
+altitude = 100
+[knobs]
+"roam.pixel_error" = 2.5
+cull_map = false
+[avatars]
+count = 12
+characters = ["knight.glb"]
+[environment]
+sun_azimuth = 180
+)",
+                                "/scenes/town.toml", d);
+  ASSERT_TRUE(scene) << messagesOf(d);
+  EXPECT_EQ(scene->folder, "/scenes/data");
+  EXPECT_EQ(scene->terrain.files.size(), 2u);
+  EXPECT_EQ(scene->terrain.unit, "dm");
+  ASSERT_EQ(scene->sources.size(), 1u);
+  EXPECT_EQ(scene->sources[0].heightColumn, "hoch");
+  EXPECT_EQ(scene->sources[0].lod, 2);
+  ASSERT_EQ(scene->sources[0].styles.size(), 1u);
+  EXPECT_EQ(scene->sources[0].styles[0].where.size(), 2u);
+  EXPECT_EQ(scene->sources[0].styles[0].roof, Finish::Slate);
+  ASSERT_EQ(scene->monuments.size(), 1u);
+  EXPECT_TRUE(scene->monuments[0].place.degrees);
+  EXPECT_NEAR(scene->monuments[0].heading, M_PI / 2, 1e-12);
+  ASSERT_EQ(scene->tours.size(), 2u);
+  EXPECT_EQ(scene->tours[1].keys[1].place.altitude, 100);
+  ASSERT_EQ(scene->knobs.size(), 2u);
+  EXPECT_THAT(scene->knobs[0].text + " " + scene->knobs[1].text, HasSubstr("cull_map=off"));
+  EXPECT_EQ(scene->avatars.count, 12u);
+}
+
+TEST(SceneDescription, ErrorsNameLineColumnAndWhatWasMeant) {
+  EXPECT_THAT(complaints("name = \"a\"\n\n[terain]\n"),
+              HasSubstr("town.toml: line 3, column 2: the key terain is not known in a scene description; did you mean "
+                        "terrain?"));
+  EXPECT_THAT(complaints("[[sources]]\nfile = \"a\"\nheigth_column = \"h\""),
+              HasSubstr("line 3, column 1: the key heigth_column is not known in this entry of sources; did you mean "
+                        "height_column?"));
+  EXPECT_THAT(complaints("[[sources]]\ncrs = \"EPSG:1\""), HasSubstr("this entry of sources lacks file"));
+  EXPECT_THAT(complaints("name = 5"), HasSubstr("line 1, column 8: name is a text in quotes, not integer"));
+  EXPECT_THAT(complaints("[terrain]\nunit = \"fet\""),
+              HasSubstr("unit is one of m, dm, cm, ft, us-ft; did you mean ft?"));
+  EXPECT_THAT(complaints("[[styles]]\nroof = \"slat\""), HasSubstr("did you mean slate?"));
+  EXPECT_THAT(complaints("[[sources]]\nfile = \"a\"\nlod = 11"), HasSubstr("lod is 11; it goes from 0 to 10"));
+  EXPECT_THAT(complaints("[[monuments]]\nfile = \"a\""), HasSubstr("lacks its place"));
+  EXPECT_THAT(complaints("[[monuments]]\nfile = \"a\"\nposition = [1, 2, 3]"),
+              HasSubstr("position is a list of 2 numbers"));
+  EXPECT_THAT(complaints("[[monuments]]\nfile = \"a\"\nposition = [nan, 2]"),
+              HasSubstr("position is a list of 2 numbers"));
+  EXPECT_THAT(complaints("[[tours]]\nname = \"t\""), HasSubstr("a tour has keys"));
+  EXPECT_THAT(complaints("name = \"a"), HasSubstr("town.toml: line 1, column"));
+  EXPECT_THAT(complaints(std::string(5000, '[')), HasSubstr("line 1"));
+}
+
+TEST(SceneDescription, ColumnsStylesViewsAndLightReachTheCity) {
+  const TemporaryFolder folder;
+  folder.write("houses.geojson", houses());
+  const std::string file = folder.write("town.toml", R"(
+name = "Town"
+crs = "EPSG:2154"
+[[sources]]
+file = "houses.geojson"
+height_column = "hoch"
+[[styles]]
+where = [{ attribute = "usage", contains = "CHURCH" }]
+facade = "facade-brick"
+[[views]]
+name = "gate"
+position = [700010, 6600000]
+above_ground = 2
+[knobs]
+"viewer.fov" = 50
+[environment]
+sun_elevation = 30
+)");
+  const LoadResult r = load(file);
+  ASSERT_TRUE(r.city) << messagesOf(r.diagnostics);
+  EXPECT_EQ(r.city->name, "Town");
+  ASSERT_EQ(r.city->buildings.size(), 2u);
+  float tallest = 0;
+  for (const city::BuildingGeometry& g : r.city->buildingTypes) tallest = std::max(tallest, g.occluders.at(0).top);
+  EXPECT_FLOAT_EQ(tallest, 9);
+  size_t brick = 0;
+  for (const city::Material& m : r.city->materials) brick += m.source == "builtin:facade-brick";
+  EXPECT_EQ(brick, 1u);
+  ASSERT_EQ(r.city->tours.size(), 1u);
+  const glm::dvec3 eye = r.city->tours[0].keys.at(0).position + r.city->origin;
+  EXPECT_NEAR(eye.x, 700010, 1e-6);
+  EXPECT_NEAR(eye.y, 6600000, 1e-6);
+  EXPECT_NEAR(r.city->environment.sunElevation, M_PI / 6, 1e-12);
+  ASSERT_EQ(r.settings.size(), 1u);
+  EXPECT_EQ(r.settings[0].text, "viewer.fov=50");
+}
+
+TEST(SceneDescription, FilesAreFoundBesideItOrInTheDataFolder) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path() / "data");
+  folder.write("data/houses.geojson", houses());
+  const std::string file = folder.write("town.toml", "[[sources]]\nfile = \"houses.geojson\"\n");
+  EXPECT_THAT(messagesOf(load(file).diagnostics), HasSubstr("houses.geojson: there is no such file"));
+  LoadOptions options;
+  options.dataFolder = (folder.path() / "data").string();
+  EXPECT_TRUE(load(file, options).city);
+}
+
+TEST(SceneDescription, AChangedDescriptionIsNoticedByTheCache) {
+  const TemporaryFolder folder;
+  folder.write("houses.geojson", houses());
+  LoadOptions options;
+  options.cacheFolder = (folder.path() / "cache").string();
+  const auto town = [&](const std::string& column) {
+    return load(
+        folder.write("town.toml", "[[sources]]\nfile = \"houses.geojson\"\nheight_column = \"" + column + "\"\n"),
+        options);
+  };
+  EXPECT_FALSE(town("hoch").fromCache);
+  EXPECT_TRUE(town("hoch").fromCache);
+  EXPECT_FALSE(town("usage").fromCache);
+  folder.write("houses.geojson", houses() + " ");
+  EXPECT_FALSE(town("usage").fromCache) << "one blank more in the data";
+}
+
+TEST(SceneDescription, ADraftCanBeReadAndGivesTheSameCity) {
+  const TemporaryFolder folder;
+  const std::string inputs[] = {folder.write("houses.geojson", houses())};
+  const std::string out = (folder.path() / "town.toml").string();
+  const DraftScene draft = draftScene(inputs, {}, out);
+  EXPECT_THAT(draft.text, HasSubstr("file = \"houses.geojson\""));
+  EXPECT_THAT(draft.text, HasSubstr("hoch = 7"));
+  folder.write("town.toml", draft.text);
+  const LoadResult again = load(out);
+  ASSERT_TRUE(again.city) << messagesOf(again.diagnostics);
+  EXPECT_EQ(again.city->buildings.size(), 2u);
+  EXPECT_EQ(again.city->crs, "EPSG:2154");
+  EXPECT_EQ(again.city->tours.size(), 1u);
+}
+
+/// The keys of docs/scene.schema.json are those that the parser knows: a description with every key of the schema has
+/// no unknown one.
+TEST(SceneDescription, TheSchemaKnowsTheSameKeys) {
+  std::ifstream stream("docs/scene.schema.json");
+  ASSERT_TRUE(stream) << "run from the repository's root";
+  const nlohmann::json schema = nlohmann::json::parse(stream);
+  const auto unknownKeys = [](const std::string& text) {
+    city::Diagnostics d;
+    parseScene(text, "town.toml", d);
+    std::string out;
+    for (const city::Diagnostic& m : d.messages)
+      if (m.message.find("is not known in") != std::string::npos) out += m.message + "\n";
+    return out;
+  };
+  const auto propertiesOf = [&](const nlohmann::json& node) {
+    const nlohmann::json& inner = node.contains("items") ? node["items"] : node;
+    return inner.contains("$ref") ? schema["$defs"][inner["$ref"].get<std::string>().substr(8)] : inner;
+  };
+  for (const auto& [key, node] : schema["properties"].items()) {
+    EXPECT_EQ(unknownKeys(key + " = 1"), "");
+    if (key == "knobs") continue;
+    const nlohmann::json inner = propertiesOf(node);
+    if (!inner.contains("properties")) continue;
+    const bool list = node.contains("items");
+    for (const auto& [name, ignored] : inner["properties"].items())
+      EXPECT_EQ(unknownKeys((list ? "[[" : "[") + key + (list ? "]]" : "]") + "\n" + name + " = 1"), "")
+          << key << "." << name;
+  }
+  // And the other way round: the examples use only what the schema has.
+  for (const auto& entry : std::filesystem::directory_iterator("examples")) {
+    if (entry.path().extension() != ".toml") continue;
+    const toml::table table = toml::parse_file(entry.path().string());
+    for (auto&& [key, node] : table) {
+      ASSERT_TRUE(schema["properties"].contains(std::string(key.str()))) << entry.path() << " " << key.str();
+      const nlohmann::json inner = propertiesOf(schema["properties"][std::string(key.str())]);
+      if (key == "knobs" || !node.is_array() || !inner.contains("properties")) continue;
+      for (const toml::node& item : *node.as_array())
+        for (auto&& [name, ignored] : *item.as_table())
+          EXPECT_TRUE(inner["properties"].contains(std::string(name.str()))) << entry.path() << " " << name.str();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace vicus::assets
