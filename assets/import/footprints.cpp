@@ -210,6 +210,7 @@ void footprintsFromFlatSolids(std::vector<Source>& sources, city::Diagnostics& d
         });
         if (!again) f.parts.emplace_back().polygon = std::move(polygon);
       }
+      if (f.parts.empty()) return false;
       f.attributes = std::move(b.attributes);
       flat.push_back(b.id);
       s.footprints.push_back(std::move(f));

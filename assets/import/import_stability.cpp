@@ -44,7 +44,7 @@ double largestSideError(Source source) {
   city::Diagnostics diagnostics;
   std::vector<Source> sources;
   sources.push_back(std::move(source));
-  const auto city = assembleCity(std::move(sources), {}, {}, {}, messages, diagnostics);
+  const auto city = assembleCity(std::move(sources), {}, AssemblyRequest{}, LoadOptions{}, messages, diagnostics);
   double worst = city && city->buildings.size() == wanted ? 0 : std::numeric_limits<double>::infinity();
   if (!city) return worst;
   for (const city::BuildingGeometry& type : city->buildingTypes) {

@@ -11,16 +11,19 @@
 #include <citygml/material.h>
 #include <citygml/polygon.h>
 #include <citygml/texture.h>
+#include <cpl_minixml.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <functional>
 #include <map>
 #include <mutex>
 #include <set>
 
 #include "assets/import/columns.hpp"
+#include "assets/import/gdal_messages.hpp"
 #include "assets/import/pictures.hpp"
 #include "assets/import/projection.hpp"
 #include "city/aabb.hpp"
@@ -349,6 +352,18 @@ std::string crsNameOf(const citygml::CityModel& model) {
   return {};
 }
 
+/// The first srsName in the file's beginning: the library hands over only those of geometries.
+std::string crsInHead(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string head(64 << 10, '\0');
+  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<size_t>(stream.gcount()));
+  constexpr std::string_view kName = "srsName=\"";
+  const size_t at = head.find(kName), begin = at + kName.size();
+  const size_t end = at == std::string::npos ? at : head.find('"', begin);
+  return end == std::string::npos ? std::string() : head.substr(begin, end - begin);
+}
+
 /// URNs of geographic systems give latitude first.
 void swapAxes(Source& source) {
   for (SurfaceBuilding& b : source.buildings)
@@ -362,6 +377,14 @@ void swapAxes(Source& source) {
   for (WaterArea& w : source.surroundings.water) swapAll(w.parts);
   for (CoverArea& c : source.surroundings.cover) swapAll(c.parts);
   for (TreePoint& t : source.surroundings.trees) std::swap(t.position.x, t.position.y);
+}
+
+/// Where a text stops being XML, in the words of GDAL's small parser; empty where that finds nothing wrong.
+std::string placeOfDamage(const std::string& file) {
+  GdalMessages messages;
+  if (CPLXMLNode* tree = CPLParseXMLFile(file.c_str())) CPLDestroyXMLNode(tree);
+  const std::string what = messages.take();
+  return what.empty() ? std::string() : ": " + what.substr(0, 200);
 }
 
 }  // namespace
@@ -388,6 +411,9 @@ Source readCityGml(const std::string& file, const CityGmlOptions& options, city:
     model = citygml::load(file, params, logger);
   } catch (const std::exception& e) {
     why = e.what();
+  } catch (...) {
+    // The XML parser's own exceptions are no standard ones.
+    why = "not well-formed XML" + placeOfDamage(file);
   }
   for (const std::string& message : logger->errors) diagnostics.error(file, "", message);
   for (const std::string& message : logger->warnings) diagnostics.warn(file, "", message);
@@ -403,7 +429,8 @@ Source readCityGml(const std::string& file, const CityGmlOptions& options, city:
   for (const citygml::CityObject* object : model->getRootCityObjects())
     if (object) reader.addRoot(*object, diagnostics);
   source = std::move(reader.source);
-  const std::string crs = crsNameOf(*model);
+  std::string crs = crsNameOf(*model);
+  if (crs.empty()) crs = crsInHead(file);
   if (!crs.empty()) {
     source.crs = crsFromText(crs);
     source.zUnit = heightUnitOf(crs);

@@ -1,4 +1,5 @@
-// Assimp 5.2 reads; the only file that knows it.
+// Assimp 5.2 reads; the only file that knows it. It was not made for damaged files (headers that promise billions of
+// vertices keep it busy for ever), so it works in a process of its own.
 #include "assets/import/read_mesh.hpp"
 
 #include <assimp/postprocess.h>
@@ -15,6 +16,7 @@
 #include <memory>
 #include <sstream>
 
+#include "assets/import/apart.hpp"
 #include "assets/import/cityjson_geometry.hpp"
 #include "assets/import/gltf.hpp"
 #include "assets/import/pictures.hpp"
@@ -298,15 +300,7 @@ std::vector<SourceMaterial> flatten(const DracoFile& from, const std::string& fi
   return materials;
 }
 
-}  // namespace
-
-bool isMeshFile(const std::string& file) {
-  static constexpr std::array<std::string_view, 13> kExtensions = {
-      ".gltf", ".glb", ".obj", ".ply", ".dae", ".fbx", ".stl", ".3ds", ".off", ".x", ".ac", ".lwo", ".blend"};
-  return std::find(kExtensions.begin(), kExtensions.end(), extensionOf(file)) != kExtensions.end();
-}
-
-std::optional<MeshContent> readMesh(const std::string& file, const MeshOptions& options,
+std::optional<MeshContent> readHere(const std::string& file, const MeshOptions& options,
                                     city::Diagnostics& diagnostics) {
   const std::string extension = extensionOf(file);
   MeshContent content;
@@ -344,6 +338,118 @@ std::optional<MeshContent> readMesh(const std::string& file, const MeshOptions& 
                        : options.up == "z";
   settle(content.mesh, points, !zUp, unit, options.height);
   return content;
+}
+
+/// A mesh with what was said of it as bytes, from one process to the other.
+struct Packed {
+  std::string bytes;
+  template <typename T>
+  void plain(const T& value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  void text(const std::string& value) {
+    plain(value.size());
+    bytes += value;
+  }
+  template <typename T>
+  void list(const std::vector<T>& values) {
+    plain(values.size());
+    if (!values.empty()) bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+  }
+};
+
+/// The inverse; reads nothing beyond its bytes.
+struct Unpacked {
+  std::string_view rest;
+  bool take(void* to, size_t size) {
+    if (size > rest.size()) return false;
+    if (size > 0) std::memcpy(to, rest.data(), size);
+    rest.remove_prefix(size);
+    return true;
+  }
+  template <typename T>
+  T plain() {
+    T value{};
+    take(&value, sizeof value);
+    return value;
+  }
+  std::string text() {
+    std::string value(std::min(plain<size_t>(), rest.size()), '\0');
+    take(value.data(), value.size());
+    return value;
+  }
+  template <typename T>
+  std::vector<T> list() {
+    std::vector<T> values(std::min(plain<size_t>(), rest.size() / sizeof(T)));
+    take(values.data(), values.size() * sizeof(T));
+    return values;
+  }
+};
+
+std::string pack(const std::optional<MeshContent>& content, const city::Diagnostics& diagnostics) {
+  Packed out;
+  out.plain(diagnostics.messages.size());
+  for (const city::Diagnostic& d : diagnostics.messages) {
+    out.plain(d.severity);
+    out.text(d.file), out.text(d.place), out.text(d.message);
+  }
+  out.plain(content.has_value());
+  if (!content) return std::move(out.bytes);
+  out.list(content->mesh.vertices), out.list(content->mesh.indices);
+  out.plain(content->materials.size());
+  for (const SourceMaterial& m : content->materials) {
+    out.text(m.name), out.text(m.image);
+    out.plain(m.colour), out.plain(m.repeat);
+  }
+  return std::move(out.bytes);
+}
+
+std::optional<MeshContent> unpack(std::string_view bytes, city::Diagnostics& diagnostics) {
+  Unpacked in{bytes};
+  for (size_t n = in.plain<size_t>(); n > 0 && !in.rest.empty(); --n) {
+    city::Diagnostic& d = diagnostics.messages.emplace_back();
+    d.severity = in.plain<city::Severity>();
+    d.file = in.text(), d.place = in.text(), d.message = in.text();
+  }
+  if (!in.plain<bool>()) return std::nullopt;
+  MeshContent content;
+  content.mesh.vertices = in.list<city::Vertex>(), content.mesh.indices = in.list<uint32_t>();
+  for (size_t n = in.plain<size_t>(); n > 0 && !in.rest.empty(); --n) {
+    SourceMaterial& m = content.materials.emplace_back();
+    m.name = in.text(), m.image = in.text();
+    m.colour = in.plain<glm::vec3>(), m.repeat = in.plain<bool>();
+  }
+  return content;
+}
+
+}  // namespace
+
+bool isMeshFile(const std::string& file) {
+  static constexpr std::array<std::string_view, 13> kExtensions = {
+      ".gltf", ".glb", ".obj", ".ply", ".dae", ".fbx", ".stl", ".3ds", ".off", ".x", ".ac", ".lwo", ".blend"};
+  return std::find(kExtensions.begin(), kExtensions.end(), extensionOf(file)) != kExtensions.end();
+}
+
+std::optional<MeshContent> readMesh(const std::string& file, const MeshOptions& options,
+                                    city::Diagnostics& diagnostics) {
+  std::error_code error;
+  const auto size = static_cast<double>(std::filesystem::file_size(file, error));
+  ApartLimits limits;
+  if (!error) {
+    limits.seconds += size / 1e6;  // a megabyte a second is slow for any of the formats
+    limits.bytes += static_cast<uint64_t>(60 * size);
+  }
+  std::string why;
+  const auto packed = runApart(
+      [&] {
+        city::Diagnostics said;
+        const auto content = readHere(file, options, said);
+        return pack(content, said);
+      },
+      limits, why);
+  if (packed) return unpack(*packed, diagnostics);
+  diagnostics.error(file, "", "the mesh cannot be read: " + why);
+  return std::nullopt;
 }
 
 }  // namespace vicus::assets

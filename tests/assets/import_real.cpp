@@ -54,6 +54,7 @@ void expectOnTheGround(const city::City& c) {
       for (const glm::vec2& end : {line.a, line.b}) {
         const auto ground = c.terrain->heightAt(instance.position.x + static_cast<double>(end.x),
                                                 instance.position.y + static_cast<double>(end.y));
+        if (line.bottom > 0) continue;  // a part that hangs
         const double foot = instance.position.z + static_cast<double>(line.bottom);
         EXPECT_LT(foot, ground.value_or(foot + 1)) << g.name;
       }
@@ -121,7 +122,8 @@ TEST(RealData, MonacoOnItsHills) {
   LoadOptions options;
   options.elevation = {realData("monaco/N43E007.hgt.zip")};
   const LoadResult r = load(file, options);
-  expectSound(r, 1207);
+  // ogr2ogr counts 1 207 polygons with a value of building other than no, and one building:part without an outline.
+  expectSound(r, 1208);
   expectOnTheGround(*r.city);
   ASSERT_TRUE(r.city->terrain);
   EXPECT_GT(r.city->terrain->maxHeight, 500);
