@@ -11,6 +11,8 @@
 #include <citygml/material.h>
 #include <citygml/polygon.h>
 #include <citygml/texture.h>
+#include <citygml/texturecoordinates.h>
+#include <citygml/texturetargetdefinition.h>
 #include <cpl_minixml.h>
 
 #include <algorithm>
@@ -171,6 +173,19 @@ uint32_t Reader::number(const SourceMaterial& material) {
   return found->second;
 }
 
+/// The texture coordinates of a polygon's outer ring, one for each of its points; empty where there are none.
+std::vector<TVec2f> coordinatesOf(const citygml::Polygon& polygon, const std::string& theme) {
+  for (const bool front : {true, false}) {
+    const auto target = polygon.getTextureTargetDefinitionForTheme(theme, front);
+    if (!target) continue;
+    for (unsigned i = 0; i < target->getTextureCoordinatesCount(); ++i)
+      if (const auto coordinates = target->getTextureCoordinates(i);
+          coordinates && coordinates->targets(*polygon.exteriorRing()))
+        return coordinates->getCoords();
+  }
+  return {};
+}
+
 uint32_t Reader::materialOf(const citygml::Polygon& polygon, std::vector<TVec2f>& uvs) {
   for (const std::string& theme : themes_) {
     const auto texture = polygon.getTextureFor(theme);
@@ -180,8 +195,7 @@ uint32_t Reader::materialOf(const citygml::Polygon& polygon, std::vector<TVec2f>
       missingPictures.insert(texture->getUrl());
       continue;
     }
-    uvs = polygon.getTexCoordsForTheme(theme, true);
-    if (uvs.empty()) uvs = polygon.getTexCoordsForTheme(theme, false);
+    uvs = coordinatesOf(polygon, theme);
     if (uvs.empty()) continue;
     const auto wrap = texture->getWrapMode();
     const bool repeat = wrap == citygml::Texture::WrapMode::WM_WRAP || wrap == citygml::Texture::WrapMode::WM_MIRROR;

@@ -303,7 +303,7 @@ TEST(LoadCity, SaysWhatIsWrongWithItsInputs) {
   EXPECT_THAT(messagesOf(load((folder.path() / "nothing.shp").string()).diagnostics),
               HasSubstr("there is no such file"));
   EXPECT_THAT(messagesOf(load(folder.write("text.txt", "hello")).diagnostics),
-              HasSubstr("is neither footprints nor CityJSON nor a terrain raster"));
+              HasSubstr("is of no kind that can be read"));
   EXPECT_THAT(
       messagesOf(load(folder.write("empty.geojson", R"({"type":"FeatureCollection","features":[]})")).diagnostics),
       HasSubstr("holds no building footprints"));

@@ -191,7 +191,7 @@ TEST(SceneDescription, AChangedDescriptionIsNoticedByTheCache) {
         folder.write("town.toml", "[[sources]]\nfile = \"houses.geojson\"\nheight_column = \"" + column + "\"\n"),
         options);
   };
-  EXPECT_FALSE(town("hoch").fromCache);
+  EXPECT_FALSE(town("hoch").fromCache);  // its result is dropped, which waits until the cache is written
   EXPECT_TRUE(town("hoch").fromCache);
   EXPECT_FALSE(town("usage").fromCache);
   folder.write("houses.geojson", houses() + " ");
