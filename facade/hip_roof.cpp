@@ -67,6 +67,7 @@ std::optional<HipRoof> hipRoof(std::span<const Ring> rings, std::span<const std:
   const double rise = reach > 0 ? std::min(tangent, highest / reach) : 0;
   HipRoof roof;
   roof.height = rise * reach;
+  roof.reach = reach;
   for (size_t f = 0; f < faces.size(); ++f) {
     RoofPiece piece{faces[f].ring, faces[f].edge, upright[f] != 0, std::move(faces[f].polygon)};
     for (dvec3& p : piece.polygon) p.z *= rise;

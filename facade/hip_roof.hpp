@@ -16,6 +16,7 @@ struct RoofPiece {
 struct HipRoof {
   std::vector<RoofPiece> pieces;
   double height = 0;  ///< of the highest ridge over the eaves
+  double reach = 0;   ///< on the plan from an eave to the farthest point of its slope, metres
 };
 
 /// All slopes rise `tangent` metres for each metre, or less where the ridge would be higher than `highest` metres.

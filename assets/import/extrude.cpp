@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "facade/hip_roof.hpp"
+
 namespace vicus::assets {
 namespace {
 
@@ -90,6 +92,64 @@ void addUnderside(BuildingBuilder& builder, const Extrusion& e, const Extrusion:
   builder.addTriangles(positions, uvs, cut.triangles, {0, 0, -1}, id(e.style.plain));
 }
 
+/// A piece of a roof that need not be convex; its first edge is the eave. Slivers that floats turn over are left out.
+void addRoofPiece(BuildingBuilder& builder, const std::vector<glm::dvec3>& polygon, glm::dvec3 normal, Finish finish) {
+  const glm::dvec3 u = glm::normalize(polygon[1] - polygon[0]), v = glm::cross(normal, u);
+  Ring plan;  // in the piece's own plane
+  for (const glm::dvec3& p : polygon) plan.emplace_back(glm::dot(p - polygon[0], u), glm::dot(p - polygon[0], v));
+  std::vector<glm::vec3> corners;
+  std::vector<glm::vec2> uvs;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    corners.emplace_back(polygon[i]);
+    uvs.push_back(uv(plan[i].x, plan[i].y));
+  }
+  std::vector<uint32_t> triangles;
+  const auto add = [&](uint32_t a, uint32_t b, uint32_t c) {
+    if (glm::dot(glm::cross(corners[b] - corners[a], corners[c] - corners[a]), glm::vec3(normal)) > 1e-6f)
+      triangles.insert(triangles.end(), {a, b, c});
+  };
+  if (isConvex(plan)) {
+    for (uint32_t i = 1; i + 1 < corners.size(); ++i) add(0, i, i + 1);
+  } else {
+    const Triangulation cut = triangulate({{plan}});
+    // The piece's own corners again, so that neighbours share them to the bit.
+    std::vector<uint32_t> cornerOf;
+    for (const glm::dvec2& p : cut.points) {
+      uint32_t nearest = 0;
+      for (uint32_t i = 1; i < plan.size(); ++i)
+        if (glm::length(plan[i] - p) < glm::length(plan[nearest] - p)) nearest = i;
+      cornerOf.push_back(nearest);
+    }
+    for (size_t t = 0; t + 2 < cut.triangles.size(); t += 3)
+      add(cornerOf[cut.triangles[t]], cornerOf[cut.triangles[t + 1]], cornerOf[cut.triangles[t + 2]]);
+  }
+  if (!triangles.empty()) builder.addTriangles(corners, uvs, triangles, glm::vec3(normal), id(finish));
+}
+
+/// A slope over every eave, meeting along the straight skeleton; gables where neighbours stand. False where the
+/// footprint has no skeleton or is too wide.
+bool addHipRoof(BuildingBuilder& builder, const Extrusion& e, const Extrusion::Part& part) {
+  constexpr double kSteepest = 1e6;  // a stated height decides
+  const bool stated = part.roofHeight > 0;
+  const auto roof = facade::hipRoof(part.polygon.rings, part.shared, stated ? kSteepest : std::tan(e.pitch),
+                                    stated ? part.roofHeight : kHighestRoof);
+  if (!roof || roof->reach > kWidestSlope) return false;
+  builder.beginLevel(static_cast<float>(part.height), static_cast<float>(part.height + roof->height));
+  for (const facade::RoofPiece& piece : roof->pieces) {
+    std::vector<glm::dvec3> polygon = piece.polygon;
+    for (glm::dvec3& p : polygon) p.z += part.height;
+    glm::dvec3 normal(0);
+    for (size_t i = 2; i < polygon.size(); ++i)
+      normal += glm::cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
+    if (!(glm::length(normal) > 1e-6)) continue;
+    normal = glm::normalize(normal);
+    const Finish finish = piece.gable ? e.style.plain : e.style.roof;
+    builder.beginPlane(piece.gable ? PlaneKind::Gable : PlaneKind::Roof, id(finish), glm::vec3(normal));
+    addRoofPiece(builder, polygon, normal, finish);
+  }
+  return true;
+}
+
 /// Two slopes that meet over the middle of two opposite edges, which become gables: those that neighbours stand against
 /// (the ridges of a terrace run along the street), else the shorter pair.
 ///
@@ -98,9 +158,6 @@ void addUnderside(BuildingBuilder& builder, const Extrusion& e, const Extrusion:
 ///    m ├──────────── n       where 1–2 and 3–0 become gables
 ///      │            │
 ///      0 ────────── 1
-///
-/// With `hips` the ridge is shortened by half the width at either end (at most to a point over the middle) and slopes
-/// take the gables' place.
 struct GableFrame {
   glm::dvec2 p0, p1, p2, p3, n, m;
   double width = 0;
@@ -118,12 +175,10 @@ GableFrame gableFrame(const Ring& ring, const std::vector<uint8_t>& shared) {
   return f;
 }
 
-void addGableRoof(BuildingBuilder& builder, const Extrusion& e, const Extrusion::Part& part, bool hips) {
+void addGableRoof(BuildingBuilder& builder, const Extrusion& e, const Extrusion::Part& part) {
   const auto [p0, p1, p2, p3, n, m, width] = gableFrame(part.polygon.rings[0], part.shared[0]);
   const double ridge = part.height + (part.roofHeight > 0 ? part.roofHeight : rise(width / 2, e.pitch));
-  const glm::dvec2 inward =
-      hips && glm::length(m - n) > 0 ? (m - n) * std::min(0.49, width / 2 / glm::length(m - n)) : glm::dvec2(0);
-  const glm::dvec3 n3(n + inward, ridge), m3(m - inward, ridge);
+  const glm::dvec3 n3(n, ridge), m3(m, ridge);
   builder.beginLevel(static_cast<float>(part.height), static_cast<float>(ridge));
   const auto side = [&](glm::dvec2 a, glm::dvec2 b, glm::dvec3 overB, glm::dvec3 overA) {
     const glm::dvec3 a3(a, part.height), b3(b, part.height);
@@ -139,10 +194,6 @@ void addGableRoof(BuildingBuilder& builder, const Extrusion& e, const Extrusion:
   side(p0, p1, n3, m3);
   side(p2, p3, m3, n3);
   const auto end = [&](glm::dvec2 a, glm::dvec2 b, glm::dvec3 top) {
-    if (hips) {
-      addSlope(builder, {glm::dvec3(a, part.height), glm::dvec3(b, part.height), top}, e.style.roof);
-      return;
-    }
     const glm::dvec2 along = glm::normalize(b - a);
     builder.beginPlane(PlaneKind::Gable, id(e.style.plain), at({along.y, -along.x}, 0));
     const glm::vec3 corners[] = {at(a, part.height), at(b, part.height), glm::vec3(top)};
@@ -220,14 +271,12 @@ bool addFlatRoof(BuildingBuilder& builder, const Extrusion& e, const Extrusion::
 }  // namespace
 
 RoofForm roofFormOf(const Polygon& footprint) {
-  if (footprint.rings.size() != 1) return RoofForm::Flat;
-  const Ring& ring = footprint.rings[0];
-  if (ring.size() > 6 || !isConvex(ring)) return RoofForm::Flat;
-  if (ring.size() != 4) return RoofForm::Pyramid;
+  const Ring& ring = footprint.rings.at(0);
+  if (footprint.rings.size() != 1 || ring.size() != 4 || !isConvex(ring)) return RoofForm::Hip;
   for (size_t i = 0; i < 4; ++i) {
     const glm::dvec2 in = glm::normalize(ring[(i + 1) % 4] - ring[i]);
     const glm::dvec2 out = glm::normalize(ring[(i + 2) % 4] - ring[(i + 1) % 4]);
-    if (std::abs(glm::dot(in, out)) > 0.5) return RoofForm::Pyramid;  // further than 30° from a right angle
+    if (std::abs(glm::dot(in, out)) > 0.5) return RoofForm::Hip;  // further than 30° from a right angle
   }
   return RoofForm::Gable;
 }
@@ -240,7 +289,9 @@ RoofForm roofFormOf(const Polygon& footprint, RoofForm stated) {
     case RoofForm::Flat:
       return RoofForm::Flat;
     case RoofForm::Pyramid:
-      return footprint.rings.size() == 1 && isConvex(footprint.rings[0]) ? RoofForm::Pyramid : RoofForm::Flat;
+      return footprint.rings.size() == 1 && isConvex(footprint.rings[0]) ? RoofForm::Pyramid : usual;
+    case RoofForm::Hip:
+      return RoofForm::Hip;
     default:
       return usual == RoofForm::Gable ? stated : usual;
   }
@@ -250,8 +301,11 @@ double roofRise(const Polygon& footprint, RoofForm form, double pitch) {
   const Ring& ring = footprint.rings.at(0);
   switch (form) {
     case RoofForm::Gable:
-    case RoofForm::Hip:
       return rise(gableFrame(ring, {}).width / 2, pitch);
+    case RoofForm::Hip: {
+      const auto skeleton = facade::straightSkeleton(footprint.rings);
+      return skeleton && skeleton->reach <= kWidestSlope ? rise(skeleton->reach, pitch) : 0;
+    }
     case RoofForm::Slope:
       return rise(gableFrame(ring, {}).width, pitch / 2);
     case RoofForm::Pyramid:
@@ -288,8 +342,10 @@ std::optional<city::BuildingGeometry> extrude(const Extrusion& e, std::string na
   for (const Extrusion::Part& part : parts) {
     switch (roofFormOf(part.polygon, part.roof)) {
       case RoofForm::Gable:
+        addGableRoof(builder, e, part);
+        break;
       case RoofForm::Hip:
-        addGableRoof(builder, e, part, part.roof == RoofForm::Hip);
+        if (!addHipRoof(builder, e, part) && !addFlatRoof(builder, e, part)) return std::nullopt;
         break;
       case RoofForm::Slope:
         addSlopeRoof(builder, e, part);

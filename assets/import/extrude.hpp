@@ -16,11 +16,15 @@ namespace vicus::assets {
 /// Roofs rise at most this far above the eaves: metres.
 constexpr double kHighestRoof = 4.5;
 
-/// The roof that a footprint gets. Gable: four corners, convex, each angle within 30° of a right one. Pyramid: other
-/// convex footprints with at most six corners. Flat: the rest.
+/// The widest span that gets a pitched roof, by half: metres.
+constexpr double kWidestSlope = 12;
+
+/// The roof that a footprint gets. Gable: four corners, convex, each angle within 30° of a right one. Hip: the rest,
+/// with a slope over every eave and gables where neighbours stand; `extrude` makes it flat where a slope would be
+/// longer on the plan than kWidestSlope.
 RoofForm roofFormOf(const Polygon& footprint);
-/// The same for a footprint whose source states a form, where it can be built over it: gables, hips and slopes need the
-/// four corners of a gable, pyramids a convex outline.
+/// The same for a footprint whose source states a form, where it can be built over it: gables and slopes need the four
+/// corners of a gable, pyramids a convex outline.
 RoofForm roofFormOf(const Polygon& footprint, RoofForm stated);
 /// Metres from the eaves to the ridge or tip of the roof that `extrude` builds for this footprint.
 double roofRise(const Polygon& footprint, RoofForm form, double pitch);

@@ -90,6 +90,20 @@ inline double areaOf(const city::BuildingGeometry& g, city::PlaneKind kind) {
   return area;
 }
 
+/// The same seen from above, m².
+inline double planAreaOf(const city::BuildingGeometry& g, city::PlaneKind kind) {
+  double area = 0;
+  for (const city::Plane& plane : g.planes) {
+    if (plane.kind != kind) continue;
+    for (uint32_t i = plane.cut.first; i + 2 < plane.cut.end(); i += 3) {
+      const glm::dvec3 a(g.vertices[g.indices[i]].position), b(g.vertices[g.indices[i + 1]].position),
+          c(g.vertices[g.indices[i + 2]].position);
+      area += glm::cross(b - a, c - a).z / 2;
+    }
+  }
+  return area;
+}
+
 /// Every triangle turns the way that its vertices' normals say.
 inline bool windingAgreesWithNormals(const city::BuildingGeometry& g) {
   for (uint32_t i = 0; i + 2 < g.fullDetail.count; i += 3) {
