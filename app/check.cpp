@@ -34,7 +34,8 @@ std::string asOption(const city::ViewPose& pose) {
 std::string lostIn(const viewer::ItemCheck& items, const city::City& city, const viewer::ItemBuffer& full) {
   if (items.lostAt.empty()) return {};
   const glm::ivec2 at = items.lostAt.front();
-  const uint32_t index = full.ids[static_cast<size_t>(at.y * full.width + at.x)] - 1;
+  const uint32_t index =
+      full.ids[static_cast<size_t>(at.y) * static_cast<size_t>(full.width) + static_cast<size_t>(at.x)] - 1;
   const auto buildings = static_cast<uint32_t>(city.buildings.size());
   return (index < buildings ? " (building " + std::to_string(index)
                             : " (monument " + std::to_string(index - buildings)) +
