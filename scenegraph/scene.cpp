@@ -59,26 +59,6 @@ osg::ref_ptr<osg::Texture2D> groundMapTexture(const city::City& city, int larges
 
 constexpr int kGroundDetailSize = 512;  // texels
 
-/// Grass, earth and stones as factors of the ground map's colour: each texel over its surroundings' mean, halved. What
-/// is coarser than a sixteenth of a repeat belongs to the map: here it would show from the air as a pattern.
-GroundDetail detailOfGround(city::Diagnostics& diagnostics) {
-  constexpr int kSize = kGroundDetailSize, kCoarse = 16;
-  std::vector<city::Material> materials;
-  for (const char* name : {"grass", "earth", "cobbles"}) materials.push_back(assets::builtinMaterial(name));
-  GroundDetail detail;
-  for (const assets::Image& image : assets::materialImages(materials, diagnostics)) {
-    LayerLevels levels = mipLevels(image, kSize);
-    const std::vector<uint8_t> coarse = levels[std::countr_zero(unsigned{kSize / kCoarse})];
-    for (int size = kSize, at = 0; size > 0; size /= 2, ++at) {
-      std::vector<uint8_t>& level = levels[static_cast<size_t>(at)];
-      level =
-          size <= kCoarse ? std::vector<uint8_t>(level.size(), 128) : overSurroundings(level, size, coarse, kCoarse);
-    }
-    detail.layers.push_back(std::move(levels));
-  }
-  return detail;
-}
-
 /// Uniforms of the shared shader files, set once (light) or each frame (view).
 struct FrameUniforms {
   osg::ref_ptr<osg::Uniform> clipFromEyeRelative = new osg::Uniform("clipFromEyeRelative", osg::Matrixf());
@@ -159,8 +139,24 @@ std::span<const city::Knob> sceneKnobs() {
   return kKnobs;
 }
 
+/// Grass, earth and stones as factors of the ground map's colour: each texel over its surroundings' mean, halved. What
+/// is coarser than a sixteenth of a repeat belongs to the map: here it would show from the air as a pattern.
 GroundDetail paintGroundDetail(city::Diagnostics& diagnostics) {
-  return detailOfGround(diagnostics);
+  constexpr int kSize = kGroundDetailSize, kCoarse = 16;
+  std::vector<city::Material> materials;
+  for (const char* name : {"grass", "earth", "cobbles"}) materials.push_back(assets::builtinMaterial(name));
+  GroundDetail detail;
+  for (const assets::Image& image : assets::materialImages(materials, diagnostics)) {
+    LayerLevels levels = mipLevels(image, kSize);
+    const std::vector<uint8_t> coarse = levels[std::countr_zero(unsigned{kSize / kCoarse})];
+    for (int size = kSize, at = 0; size > 0; size /= 2, ++at) {
+      std::vector<uint8_t>& level = levels[static_cast<size_t>(at)];
+      level =
+          size <= kCoarse ? std::vector<uint8_t>(level.size(), 128) : overSurroundings(level, size, coarse, kCoarse);
+    }
+    detail.layers.push_back(std::move(levels));
+  }
+  return detail;
 }
 
 struct Scene::Impl {

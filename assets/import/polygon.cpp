@@ -43,15 +43,6 @@ bool segmentsMeet(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 d) {
          (cdb == 0 && withinBox(c, d, b));
 }
 
-bool insideRing(const Ring& ring, glm::dvec2 p) {
-  bool inside = false;
-  for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++)
-    if ((ring[i].y > p.y) != (ring[j].y > p.y) &&
-        p.x < (ring[j].x - ring[i].x) * (p.y - ring[i].y) / (ring[j].y - ring[i].y) + ring[i].x)
-      inside = !inside;
-  return inside;
-}
-
 /// Without repeated points, the closing point and spikes (a → b → a). Fewer than three points: nothing.
 Ring withoutRepeats(const Ring& raw) {
   Ring out;
@@ -211,6 +202,15 @@ bool cutIntoTriangles(const Geos& geos, const Polygon& polygon, int depth,
 }
 
 }  // namespace
+
+bool insideRing(const Ring& ring, glm::dvec2 p) {
+  bool inside = false;
+  for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++)
+    if ((ring[i].y > p.y) != (ring[j].y > p.y) &&
+        p.x < (ring[j].x - ring[i].x) * (p.y - ring[i].y) / (ring[j].y - ring[i].y) + ring[i].x)
+      inside = !inside;
+  return inside;
+}
 
 glm::dvec2 snapped(glm::dvec2 p) {
   return {std::nearbyint(p.x / kSnap) * kSnap, std::nearbyint(p.y / kSnap) * kSnap};

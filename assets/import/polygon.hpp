@@ -28,6 +28,8 @@ double signedArea(std::span<const glm::dvec2> ring);
 /// Area in m² without the holes.
 double area(const Polygon& polygon);
 glm::dvec2 centroid(const Polygon& polygon);
+/// Whether p lies inside a closed line of any winding; on the line either answer may come.
+bool insideRing(const Ring& ring, glm::dvec2 p);
 
 /// Counter-clockwise, no reflex corner, at least three corners that are not in line.
 bool isConvex(std::span<const glm::dvec2> ring);

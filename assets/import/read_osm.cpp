@@ -297,15 +297,6 @@ void OsmReader::add(const OGRFeature& feature, const std::string& layer) {
   for (auto& line : linesOf(*geometry)) addLine(tags, id, std::move(line));
 }
 
-bool insideRing(const Ring& ring, glm::dvec2 p) {
-  bool inside = false;
-  for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++)
-    if ((ring[i].y > p.y) != (ring[j].y > p.y) &&
-        p.x < (ring[j].x - ring[i].x) * (p.y - ring[i].y) / (ring[j].y - ring[i].y) + ring[i].x)
-      inside = !inside;
-  return inside;
-}
-
 double areaOf(const Footprint& f) {
   double sum = 0;
   for (const FootprintPart& p : f.parts) sum += area(p.polygon);

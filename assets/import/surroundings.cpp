@@ -170,15 +170,6 @@ void addTrees(Place& place, const Source& source) {
   }
 }
 
-bool insideRing(const Ring& ring, glm::dvec2 p) {
-  bool inside = false;
-  for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++)
-    if ((ring[i].y > p.y) != (ring[j].y > p.y) &&
-        p.x < (ring[j].x - ring[i].x) * (p.y - ring[i].y) / (ring[j].y - ring[i].y) + ring[i].x)
-      inside = !inside;
-  return inside;
-}
-
 bool insidePolygon(const Polygon& polygon, glm::dvec2 p) {
   bool inside = false;
   for (const Ring& ring : polygon.rings) inside = inside != insideRing(ring, p);

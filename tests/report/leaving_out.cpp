@@ -13,6 +13,7 @@
 
 #include "plan/planner.hpp"
 #include "scenegraph/scene.hpp"
+#include "tests/report/all_knobs.hpp"
 #include "tests/viewer/small_cities.hpp"
 #include "viewer/frame_loop.hpp"
 
@@ -22,14 +23,6 @@ namespace {
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-city::Knobs allKnobs() {
-  city::Knobs knobs;
-  knobs.declare(plan::planKnobs());
-  knobs.declare(scenegraph::sceneKnobs());
-  knobs.declare(viewer::viewerKnobs());
-  return knobs;
-}
 
 /// The names of all programs in a graph.
 class Programs : public osg::NodeVisitor {

@@ -16,6 +16,7 @@
 #include "report/stability.hpp"
 #include "report/write_json.hpp"
 #include "scenegraph/scene.hpp"
+#include "tests/report/all_knobs.hpp"
 #include "tests/viewer/small_cities.hpp"
 #include "viewer/frame_loop.hpp"
 
@@ -27,14 +28,6 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::UnorderedElementsAre;
-
-city::Knobs allKnobs() {
-  city::Knobs knobs;
-  knobs.declare(plan::planKnobs());
-  knobs.declare(scenegraph::sceneKnobs());
-  knobs.declare(viewer::viewerKnobs());
-  return knobs;
-}
 
 /// As little as shows everything once.
 Amounts fewest() {
