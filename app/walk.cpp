@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <future>
 #include <set>
@@ -278,22 +279,20 @@ int walk(const WalkOptions& options, const Surroundings& surroundings) {
   if (screen.window) visit.emplace(*screen.window, sceneName(options.scene), options.out.empty() ? "out" : options.out);
   std::future<scenegraph::GroundDetail> painting = std::async(
       visit ? std::launch::async : std::launch::deferred, [&] { return scenegraph::paintGroundDetail(diagnostics); });
-  // A window says how far it is; one that could not open, or that the visitor left, waits for the reading to end.
+  // A window says how far it is. A visitor who leaves is not kept until the end: what is written is written whole or
+  // not at all.
   const auto showLoading = [&] {
     const auto [stage, fraction] = console.shownProgress();
-    return !visit || visit->showLoading(stage, fraction);
+    if (visit && !visit->showLoading(stage, fraction)) std::quick_exit(kDone);
   };
   const auto fail = [&](int exitCode) {
     if (visit) visit->showError(console.errors());
     return exitCode;
   };
-  bool stays = true;
-  while (visit && opening.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready)
-    stays = showLoading() && stays;
+  while (visit && opening.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) showLoading();
   std::optional<OpenScene> scene = opening.get();
   scenegraph::GroundDetail groundDetail = painting.get();
   if (!screen.context) console.error(screenProblem);
-  if (!stays) return kDone;
   if (!scene || !screen.context) return fail(scene ? kCouldNot : code);
   std::vector<city::Tour> tours;
   std::future<std::optional<city::Tour>> choosing =

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <string>
 
 namespace vicus::viewer {
 namespace {
@@ -15,14 +17,27 @@ namespace {
 using Colour = std::array<float, 3>;
 constexpr Colour kPaper{0.11f, 0.11f, 0.12f}, kInk{0.93f, 0.91f, 0.86f}, kQuiet{0.66f, 0.64f, 0.60f},
     kAccent{0.85f, 0.67f, 0.38f}, kRule{0.25f, 0.24f, 0.23f};
-constexpr const char* kFont = "DejaVuSans";
+
+/// The font's file, looked for once: given a name alone, OpenImageIO searches all folders of fonts for every word. The
+/// name where the file is not there.
+const std::string& font() {
+  static const std::string file = [] {
+    std::error_code error;
+    for (const char* folder : {"/usr/share/fonts", "/usr/local/share/fonts"})
+      for (std::filesystem::recursive_directory_iterator it(folder, error), end; !error && it != end;
+           it.increment(error))
+        if (it->path().filename() == "DejaVuSans.ttf") return it->path().string();
+    return std::string("DejaVuSans");
+  }();
+  return file;
+}
 
 int letters(double scale) {
   return std::max(6, static_cast<int>(std::lround(16 * scale)));
 }
 
 int widthOf(const std::string& text, int size) {
-  const OIIO::ROI roi = OIIO::ImageBufAlgo::text_size(text, size, kFont);
+  const OIIO::ROI roi = OIIO::ImageBufAlgo::text_size(text, size, font());
   return roi.defined() ? std::max(roi.xend, 0) : 0;
 }
 
@@ -42,7 +57,7 @@ class Sheet {
   /// `baseline` is the left end of the line that the letters stand on.
   void write(glm::ivec2 baseline, const std::string& text, int letterSize, const Colour& colour) {
     if (!text.empty())
-      OIIO::ImageBufAlgo::render_text(buffer_, baseline.x, baseline.y, text, letterSize, kFont,
+      OIIO::ImageBufAlgo::render_text(buffer_, baseline.x, baseline.y, text, letterSize, font(),
                                       {colour[0], colour[1], colour[2]});
   }
   Picture picture() const {
