@@ -12,7 +12,9 @@ constexpr double kFarthestPlace = 1 << 20;  // half samples; 32 times the larges
 Eye eyeOf(const city::ViewState& view, const RoamSettings& settings, const city::HeightField& field) {
   Eye eye;
   eye.perspective = true;
-  eye.position = view.eye - glm::dvec3(field.origin, 0);
+  // From nowhere the ground is drawn as from its corner.
+  const bool somewhere = std::isfinite(view.eye.x) && std::isfinite(view.eye.y) && std::isfinite(view.eye.z);
+  if (somewhere) eye.position = view.eye - glm::dvec3(field.origin, 0);
   const glm::dvec2 halves = 2.0 * glm::dvec2(eye.position) / field.spacing;
   eye.place = glm::ivec2(glm::clamp(halves, -kFarthestPlace, kFarthestPlace));
   eye.rest = glm::vec2(glm::dvec2(eye.position) - glm::dvec2(eye.place) * field.spacing / 2.0);
