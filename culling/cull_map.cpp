@@ -241,9 +241,13 @@ class Walk {
     const dvec2 eye(eye_);
     const double less = kLessHigh + eye_.z;
     horizon_.beginChain();
-    horizon_.addWall(dvec3(wall.b - eye, wall.topB - less), dvec3(wall.a - eye, wall.topA - less), kInfinity,
-                     {true, true});
+    addToHorizon(dvec3(wall.b - eye, wall.topB - less), dvec3(wall.a - eye, wall.topA - less), kInfinity, {true, true});
     ++stats_.occluders;
+  }
+
+  void addToHorizon(const dvec3& p, const dvec3& q, double limit, Horizon::FreeEnds free) {
+    horizon_.addWall(p, q, limit, free);
+    if (shown_) shown_->occluders.push_back({eye_ + p, eye_ + q});
   }
 
   void pend(const Pending& pending) {
@@ -330,7 +334,7 @@ class Walk {
       const bool joined = i > 0 && pieces_[i - 1].second == pieces_[i].first;
       const bool goesOn = i + 1 < pieces_.size() && pieces_[i + 1].first == pieces_[i].second;
       if (!joined) horizon_.beginChain();
-      horizon_.addWall(pieces_[i].first, pieces_[i].second, limit_, {!joined, !goesOn});
+      addToHorizon(pieces_[i].first, pieces_[i].second, limit_, {!joined, !goesOn});
     }
     ++stats_.occluders;
   }
@@ -350,8 +354,8 @@ class Walk {
       const OccluderWall& wall = occluders_.walls[range.first + i];
       placer_.walls[i].done = true;
       const double top = instance.position.z + static_cast<double>(wall.top) - kLessHigh - eye_.z;
-      horizon_.addWall(dvec3(placer_.walls[i].b, top), dvec3(placer_.walls[i].a, top), limit_,
-                       {first, !goesOn(wall.previous)});
+      addToHorizon(dvec3(placer_.walls[i].b, top), dvec3(placer_.walls[i].a, top), limit_,
+                   {first, !goesOn(wall.previous)});
       ++stats_.occluders;
       i = wall.previous;
     }

@@ -53,9 +53,9 @@ struct CullMapView {
   double cellSize = 0;         ///< metres
   std::vector<float> heights;  ///< above the eye, row by row from the south; −∞ where nothing is hidden
   struct Line {
-    glm::dvec2 a, b;
+    glm::dvec3 a, b;
   };
-  std::vector<Line> occluders;  ///< chosen walls, metres from the city's origin
+  std::vector<Line> occluders;  ///< tops of the chosen walls, metres from the city's origin
 };
 
 /// Takes out of the plan's buildings, trees, monuments and tiles what cannot be seen because walls of buildings of the

@@ -43,7 +43,7 @@ bool allAbove(const float* slopes, int first, int end, double slope) {
 }  // namespace
 
 Horizon::Horizon(uint32_t columns, double sway) : perFace_(static_cast<int>(columns / kFaces)), sway_(sway) {
-  slopes_.resize(static_cast<size_t>(perFace_) * kFaces);
+  slopes_.resize(static_cast<size_t>(perFace_) * kFaces, -std::numeric_limits<float>::infinity());
 }
 
 void Horizon::allRound() {

@@ -113,9 +113,7 @@ class PlanWalk {
     };
     for (uint32_t i = 0; i < range.count; ++i) {
       if (!placer_.walls[i].faces) continue;
-      map_.add(shadow(i));
-      ++stats_.occluders;
-      if (shown_) shown_->occluders.push_back({dvec2(eye_) + placer_.walls[i].a, dvec2(eye_) + placer_.walls[i].b});
+      add(shadow(i));
       const uint32_t next = occluders_.walls[range.first + i].previous;
       if (next != kNone && placer_.walls[next].faces) map_.addJoint(shadow(i), shadow(next));
     }
@@ -155,10 +153,14 @@ class PlanWalk {
       a += 0.5 * map_.cellSize() * along, b -= 0.5 * map_.cellSize() * along;
       if (a.x * b.y - a.y * b.x > 0) std::swap(a, b);
       const double top = instance.position.z + static_cast<double>(wall.top) - eye_.z;
-      map_.add({dvec3(b, top), dvec3(a, top)});
-      ++stats_.occluders;
-      if (shown_) shown_->occluders.push_back({dvec2(eye_) + a, dvec2(eye_) + b});
+      add({dvec3(b, top), dvec3(a, top)});
     }
+  }
+
+  void add(const ShadowWall& wall) {
+    map_.add(wall);
+    ++stats_.occluders;
+    if (shown_) shown_->occluders.push_back({eye_ + wall.right, eye_ + wall.left});
   }
 
   void show() const {

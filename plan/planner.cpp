@@ -75,6 +75,7 @@ struct Frame {
   FramePlan& plan;
   PlannerState& state;
   uint64_t monumentsInFrustum = 0;
+  culling::CullMapView* shownCullMap = nullptr;  ///< filled where somebody wants to look at it
 };
 
 /// One step of a frame: what it is called, whether this scene needs it, what it does. A technique is one or more rows
@@ -137,7 +138,7 @@ void allMonuments(Frame& frame) {
 void cullHidden(Frame& frame) {
   const Scene& scene = frame.scene;
   const culling::CullMapStats stats =
-      culling::cullOccluded(frame.city, scene.occluders, scene.cullMapOptions, frame.plan);
+      culling::cullOccluded(frame.city, scene.occluders, scene.cullMapOptions, frame.plan, frame.shownCullMap);
   frame.plan.counts.horizonTests = stats.boxTests;
   frame.plan.counts.occluders = stats.occluders;
 }
@@ -320,7 +321,7 @@ FramePlan Planner::plan(const City& city, const city::ViewState& view, double /*
   }
 
   const culling::BoxTest boxTest = culling::boxTestFor(culling::frustumOf(view), impl_->scene.reach);
-  Frame frame{city, impl_->scene, boxTest, plan, state, 0};
+  Frame frame{city, impl_->scene, boxTest, plan, state};
   for (const Step& step : impl_->steps) {
     const Clock::time_point begin = Clock::now();
     step.run(frame);
@@ -332,6 +333,20 @@ FramePlan Planner::plan(const City& city, const city::ViewState& view, double /*
   assert(coversOnce(plan.trees, city.trees.size()));
   state.runs = std::max(plan.buildings.drawn.size(), plan.buildings.dropped.size());
   return plan;
+}
+
+culling::CullMapView Planner::cullMap(const City& city, const city::ViewState& view) const {
+  culling::CullMapView shown;
+  FramePlan plan;
+  plan.view = view;
+  PlannerState state;
+  const culling::BoxTest boxTest = culling::boxTestFor(culling::frustumOf(view), impl_->scene.reach);
+  Frame frame{city, impl_->scene, boxTest, plan, state, 0, &shown};
+  const auto cull =
+      std::find_if(impl_->steps.begin(), impl_->steps.end(), [](const Step& step) { return step.run == cullHidden; });
+  if (cull == impl_->steps.end()) return shown;
+  for (auto step = impl_->steps.begin(); step <= cull; ++step) step->run(frame);
+  return shown;
 }
 
 const std::vector<FeatureReport>& Planner::features() const {

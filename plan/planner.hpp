@@ -10,6 +10,7 @@
 #include "city/city.hpp"
 #include "city/frame_plan.hpp"
 #include "city/knob.hpp"
+#include "culling/cull_map.hpp"
 #include "terrain/roam.hpp"
 
 namespace vicus::plan {
@@ -43,6 +44,9 @@ class Planner {
   /// `city` is the one that the planner was made for; it, and the planner, must outlive the state. `dt` in seconds
   /// since this view's last plan.
   city::FramePlan plan(const city::City& city, const city::ViewState& view, double dt, PlannerState& state) const;
+
+  /// What the cull map holds for a view, for people to look at; nothing where this scene has none.
+  culling::CullMapView cullMap(const city::City& city, const city::ViewState& view) const;
 
   /// Every technique and kind of content, on or off, with the reason.
   const std::vector<FeatureReport>& features() const;

@@ -5,16 +5,19 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/gtc/type_ptr.hpp>
+#include <optional>
 #include <utility>
 
 #include "culling/frustum.hpp"
+#include "culling/horizon.hpp"
 #include "viewer/raw_gl.hpp"
 
 namespace vicus::viewer {
 namespace {
 
 constexpr glm::u8vec4 kFrustumColour{255, 214, 60, 255}, kDrawnTile{90, 200, 110, 255},
-    kDroppedTile{150, 150, 150, 255};
+    kDroppedTile{150, 150, 150, 255}, kOccluder{255, 140, 30, 255}, kHorizon{240, 60, 220, 255};
+constexpr double kCurtain = 10;  // metres from the eye along the faces' axes
 
 /// A line's end as the card gets it: metres from the frozen eye.
 struct LineVertex {
@@ -84,6 +87,40 @@ std::vector<SceneLine> linesOf(const city::City& city, const city::FramePlan& pl
   return lines;
 }
 
+std::vector<SceneLine> linesOf(const culling::CullMapView& map, const glm::dvec3& eye) {
+  std::vector<SceneLine> lines;
+  for (const culling::CullMapView::Line& line : map.occluders) lines.push_back({line.a, line.b, kOccluder});
+  const auto perFace = static_cast<int>(map.slopes.size()) / culling::kFaces;
+  for (int k = 0; k < perFace * culling::kFaces; ++k) {
+    const auto slope = static_cast<double>(map.slopes[static_cast<size_t>(k)]);
+    if (!std::isfinite(slope)) continue;
+    // A column's edge over its whole width, turned back from its face.
+    const auto end = [&](int column) {
+      glm::dvec2 p(kCurtain, kCurtain * (2.0 * column / perFace - 1));
+      for (int face = 0; face < k / perFace; ++face) p = {-p.y, p.x};
+      return eye + glm::dvec3(p, kCurtain * slope);
+    };
+    lines.push_back({end(k % perFace), end(k % perFace + 1), kHorizon});
+  }
+  const auto cells = static_cast<int>(map.cells);
+  const auto corner = [&](int x, int y) -> std::optional<glm::dvec3> {
+    const float height = map.heights[static_cast<size_t>(y) * map.cells + static_cast<size_t>(x)];
+    if (!std::isfinite(height)) return std::nullopt;
+    const glm::dvec2 cell(x - 0.5 * cells + 0.5, y - 0.5 * cells + 0.5);
+    return eye + glm::dvec3(cell * map.cellSize, height);
+  };
+  for (int y = 0; y < cells; ++y)
+    for (int x = 0; x < cells; ++x) {
+      const std::optional<glm::dvec3> here = corner(x, y);
+      if (!here) continue;
+      for (const glm::ivec2 next : {glm::ivec2(x + 1, y), glm::ivec2(x, y + 1)})
+        if (next.x < cells && next.y < cells)
+          if (const std::optional<glm::dvec3> there = corner(next.x, next.y))
+            lines.push_back({*here, *there, kHorizon});
+    }
+  return lines;
+}
+
 struct FrozenView::Impl {
   const city::City& city;
   city::FramePlan plan;
@@ -94,12 +131,16 @@ struct FrozenView::Impl {
   explicit Impl(const city::City& c, city::FramePlan p) : city(c), plan(std::move(p)) {}
 };
 
-FrozenView::FrozenView(const city::City& city, city::FramePlan frozen, std::string& problem)
+FrozenView::FrozenView(const city::City& city, city::FramePlan frozen, const culling::CullMapView& cullMap,
+                       std::string& problem)
     : impl_(std::make_unique<Impl>(city, std::move(frozen))) {
   Impl& s = *impl_;
   for (const Fate fate : fatesOf(city, s.plan)) s.tints.push_back(tintOf(fate));
   std::vector<LineVertex> vertices;
-  for (const SceneLine& line : linesOf(city, s.plan))
+  std::vector<SceneLine> lines = linesOf(city, s.plan);
+  const std::vector<SceneLine> mapLines = linesOf(cullMap, s.plan.view.eye);
+  lines.insert(lines.end(), mapLines.begin(), mapLines.end());
+  for (const SceneLine& line : lines)
     for (const glm::dvec3& end : {line.a, line.b}) vertices.push_back({glm::vec3(end - s.plan.view.eye), line.colour});
   s.lineVertices = static_cast<GLsizei>(vertices.size());
 

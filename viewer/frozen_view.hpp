@@ -8,6 +8,7 @@
 
 #include "city/city.hpp"
 #include "city/frame_plan.hpp"
+#include "culling/cull_map.hpp"
 #include "viewer/renderer.hpp"
 
 namespace vicus::viewer {
@@ -32,11 +33,15 @@ struct SceneLine {
 /// what stands on them: green where the plan draws them, grey where not.
 std::vector<SceneLine> linesOf(const city::City& city, const city::FramePlan& plan);
 
+/// The cull map of a plan: the tops of the walls that were chosen (orange); the horizon by direction as a curtain's
+/// edge 10 m from the eye, or the heights of the grid on the plan as a net (magenta).
+std::vector<SceneLine> linesOf(const culling::CullMapView& map, const glm::dvec3& eye);
+
 /// Draws a frozen plan. Made with the renderer's context current, and let go with it current.
 class FrozenView {
  public:
   /// What cannot be drawn is told in `problem`.
-  FrozenView(const city::City& city, city::FramePlan frozen, std::string& problem);
+  FrozenView(const city::City& city, city::FramePlan frozen, const culling::CullMapView& cullMap, std::string& problem);
   ~FrozenView();
   FrozenView(const FrozenView&) = delete;
   FrozenView& operator=(const FrozenView&) = delete;

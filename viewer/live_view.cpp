@@ -44,7 +44,8 @@ city::FramePlan LiveView::plan(const NextView& next, plan::PlannerState& state) 
   if (!frozenView_ || from_) {
     city::FramePlan plan = stage_.planner->plan(*stage_.city, next.view, next.dt, state);
     stage_.context->makeCurrent();
-    frozenView_ = std::make_unique<FrozenView>(*stage_.city, std::move(plan), problem_);
+    const culling::CullMapView cullMap = stage_.planner->cullMap(*stage_.city, next.view);
+    frozenView_ = std::make_unique<FrozenView>(*stage_.city, std::move(plan), cullMap, problem_);
   }
   shownView_ = from_.value_or(next.view);
   shownView_.viewport = next.view.viewport;

@@ -238,6 +238,9 @@ std::optional<KnobChange> Overlay::draw(glm::ivec2 size, double dt, const Overla
     ImGui::TextColored(ImVec4(1, 0.45F, 0.35F, 1), "red: hidden");
     ImGui::SameLine();
     ImGui::TextColored(kWarm, "yellow: its edges");
+    ImGui::TextColored(ImVec4(1, 0.6F, 0.25F, 1), "orange: walls that hide");
+    ImGui::SameLine();
+    ImGui::TextColored(ImVec4(0.95F, 0.4F, 0.9F, 1), "magenta: the cull map");
   }
   s.frameTimes(facts.record);
   s.stageBars();

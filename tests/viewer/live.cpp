@@ -201,5 +201,45 @@ TEST(LinesOf, TilesByWhetherTheyAreDrawnAndTheFrustum) {
   EXPECT_GE(lines.size(), 4 * tiles + 8) << "and the frustum's edges";
 }
 
+TEST(LinesOf, TheCullMapLiesOverTheWallsThatMadeIt) {
+  const city::City town = townOfWalls();
+  city::Knobs knobs;
+  knobs.declare(plan::planKnobs());
+  const city::ViewState view = city::makeView({{40, 24, 1.7}, 0, 0, 0}, kFov, kSize);
+  const culling::CullMapView horizon = plan::Planner(town, knobs).cullMap(town, view);
+  ASSERT_FALSE(horizon.occluders.empty());
+  const std::vector<SceneLine> lines = linesOf(horizon, view.eye);
+  EXPECT_EQ(lines.size(), horizon.occluders.size() + static_cast<size_t>(std::ranges::count_if(
+                                                         horizon.slopes, [](float s) { return std::isfinite(s); })));
+  size_t checked = 0;
+  for (size_t k = horizon.occluders.size(); k < lines.size(); ++k) {
+    const glm::dvec3 a = lines[k].a - view.eye, b = lines[k].b - view.eye;
+    EXPECT_NEAR(std::max(std::abs(a.x), std::abs(a.y)), 10, 1e-9);
+    // No chosen wall over the column's whole width stands higher than the horizon there, where it is lowest.
+    for (const culling::CullMapView::Line& wall : horizon.occluders) {
+      const glm::dvec3 p = wall.a - view.eye, q = wall.b - view.eye;
+      double least = std::numeric_limits<double>::infinity();
+      for (const glm::dvec3& edge : {a, b}) {
+        const double atP = edge.x * p.y - edge.y * p.x, atQ = edge.x * q.y - edge.y * q.x;
+        const glm::dvec3 at = glm::mix(p, q, atP / (atP - atQ));
+        const bool within = atP * atQ < 0 && glm::distance(at, p) > 0.1 && glm::distance(at, q) > 0.1 &&
+                            glm::dot(glm::dvec2(at), glm::dvec2(edge)) > 0;
+        least = within ? std::min(least, at.z * 10 / std::max(std::abs(at.x), std::abs(at.y))) : -1e9;
+        if (!within) break;
+      }
+      if (least < -1e6) continue;
+      ++checked;
+      EXPECT_GE(a.z, least - 0.005);
+    }
+  }
+  EXPECT_GT(checked, 100U);
+
+  knobs.set("cull_map.kind", 1);
+  const culling::CullMapView grid = plan::Planner(town, knobs).cullMap(town, view);
+  EXPECT_GT(linesOf(grid, view.eye).size(), grid.occluders.size() + 100);
+  knobs.set("cull_map", 0);
+  EXPECT_TRUE(linesOf(plan::Planner(town, knobs).cullMap(town, view), view.eye).empty());
+}
+
 }  // namespace
 }  // namespace vicus::viewer
