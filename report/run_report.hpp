@@ -21,18 +21,18 @@ namespace vicus::report {
 /// How much is measured. More of anything: surer figures, and more time.
 struct Amounts {
   glm::ivec2 size{1280, 720};            ///< of the timed frames and the pictures
-  int warmUpFrames = 10;                 ///< for each run
-  int timedFrames = 120;                 ///< for each run of a tour
-  int pictureViews = 12;                 ///< for each tour: pictures compared with the reference
+  int warmUpFrames = 5;                  ///< for each run
+  int timedFrames = 60;                  ///< for each run of a tour
+  int pictureViews = 8;                  ///< for each tour: pictures compared with the reference
   glm::ivec2 timedItemSize{2560, 1440};  ///< of the item buffers that every timed frame is checked against
   glm::ivec2 itemSize{3840, 2160};       ///< of those that tell what is visible
-  int itemViews = 12;                    ///< for each tour; 0: the timed frames' own tell what is visible
-  int approachFrames = 24;               ///< of the slow approach that shows popping
+  int itemViews = 8;                     ///< for each tour; 0: the timed frames' own tell what is visible
+  int approachFrames = 16;               ///< of the slow approach that shows popping
   bool poppingOfAll = true;              ///< of every run; else of all_off and all_on only
-  size_t curvePoints = 9;                ///< for each knob
-  int curveFrames = 40;                  ///< timed frames for each point
-  int curveViews = 6;                    ///< pictures for each point
-  int leftOutFrames = 20;                ///< for each part that the scene lacks, with it and without
+  size_t curvePoints = 7;                ///< for each knob
+  int curveFrames = 20;                  ///< timed frames for each point
+  int curveViews = 4;                    ///< pictures for each point
+  int leftOutFrames = 12;                ///< for each part that the scene lacks, with it and without
   bool shortTours = false;               ///< tours after the first: all_off, all_on and limit only, and no popping
   std::vector<std::string> tours{"street", "flyover", "turn", "teleport"};
   std::vector<std::string> only;  ///< names of the configurations; empty: all
