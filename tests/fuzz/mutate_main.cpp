@@ -164,7 +164,8 @@ int main(int argc, char** argv) {
     vicus::city::Random random(options.seed * 1'000'003u + static_cast<uint32_t>(i));
     // The copy keeps the name's ending, which decides how it is read.
     std::string name = original.filename().string();
-    const fs::path copy = options.keep / ("copy" + std::to_string(getpid()) + name.substr(std::min(name.find('.'), name.size())));
+    const fs::path copy =
+        options.keep / ("copy" + std::to_string(getpid()) + name.substr(std::min(name.find('.'), name.size())));
     std::ofstream(copy, std::ios::binary) << vicus::fuzz::mutated(readAll(original), kind, random);
     const Outcome out = loadApart(copy.string());
     if (count(std::string(vicus::fuzz::kMutations[kind]), out)) {
