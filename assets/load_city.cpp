@@ -144,7 +144,7 @@ LoadResult loadScene(const SceneDescription& scene, const LoadOptions& options) 
                        static_cast<double>(done) / static_cast<double>(all));
     }
     if (i < sources)
-      contents[i] = readFile(scene.sources[i], fallback);
+      contents[i] = readFile(scene.sources[i], fallback, scene.terrain.unit);
     else if (i < sources + rasters)
       contents[i] = readElevationFile(file, scene.terrain, fallback);
     else

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "assets/scene/scene_description.hpp"
+#include "assets/scene/scene_setting.hpp"
 #include "city/city.hpp"
 #include "city/diagnostics.hpp"
 

@@ -278,6 +278,8 @@ std::optional<Geometry> GeometryReader::readShape(const std::string& id, const J
                       colour.is_null() ? &colours : &colour};
   uint32_t shell = 0;
   readSurfaces(id, member(geometry, "boundaries"), beside, depth->second, shell, kinds, points, out.surfaces);
+  if (depth->second > 0)
+    for (Surface& s : out.surfaces) s.solid = true;
   return out;
 }
 

@@ -37,14 +37,35 @@ constexpr auto kHeight = std::to_array<std::string_view>({"height",
                                                           "h"});
 constexpr auto kStoreys = std::to_array<std::string_view>(
     {"buildinglevels", "levels", "storeysaboveground", "storeys", "stories", "numberoffloors", "numfloors", "floors",
-     "nbetages", "nbniveaux", "geschosse", "plantas", "piani", "bouwlagen"});
-constexpr auto kGround =
-    std::to_array<std::string_view>({"ground",          "groundheight",    "groundz",     "zground",
-                                     "groundelevation", "elevationground", "altitudesol", "altitudes",
-                                     "altsol",          "zminsol",         "zsol",        "terrainheight",
-                                     "terrain",         "hmaaiveld",       "b3hmaaiveld", "baseelevation",
-                                     "basez",           "zbase",           "zmin",        "ele",
-                                     "elevation"});
+     "nbetages", "nombredetages", "nbniveaux", "geschosse", "plantas", "piani", "bouwlagen", "storyht"});
+constexpr auto kGround = std::to_array<std::string_view>({"ground",
+                                                          "groundheight",
+                                                          "groundz",
+                                                          "zground",
+                                                          "groundelevation",
+                                                          "elevationground",
+                                                          "altitudesol",
+                                                          "altitudes",
+                                                          "altsol",
+                                                          "zminsol",
+                                                          "zsol",
+                                                          "terrainheight",
+                                                          "terrain",
+                                                          "hmaaiveld",
+                                                          "b3hmaaiveld",
+                                                          "baseelevation",
+                                                          "basez",
+                                                          "zbase",
+                                                          "zmin",
+                                                          "ele",
+                                                          "elevation",
+                                                          "altitudeminimalesol"});
+// Altitudes of the ground at a building's uphill side, where the names above give those of its downhill side.
+constexpr auto kUphill = std::to_array<std::string_view>({"zmaxsol", "altitudemaximalesol"});
+// Altitudes of roofs, eaves before ridges.
+constexpr auto kRoof = std::to_array<std::string_view>(
+    {"zmintoit", "altitudeminimaletoit", "zmaxtoit", "altitudemaximaletoit", "ztoit", "zroof", "roofz", "roofaltitude",
+     "roofelevation", "b3hdak50p", "b3hdakmax", "absoluteeavesheight", "absoluteridgeheight"});
 
 bool separator(char c) {
   return c == '_' || c == '-' || c == ':' || c == '.' || c == ' ';
@@ -60,6 +81,13 @@ std::span<const std::string_view> storeyNames() {
 }
 std::span<const std::string_view> groundNames() {
   return kGround;
+}
+
+std::span<const std::string_view> uphillNames() {
+  return kUphill;
+}
+std::span<const std::string_view> roofNames() {
+  return kRoof;
 }
 
 std::string plainName(std::string_view column) {

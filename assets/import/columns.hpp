@@ -12,11 +12,13 @@ namespace vicus::assets {
 constexpr double kStoreyHeight = 3;
 constexpr double kDefaultHeight = 6;
 
-/// Heights of buildings, numbers of storeys, and altitudes of the ground: names in the order in which they are
-/// preferred, in lower case without separators.
+/// Heights of buildings, numbers of storeys, altitudes of the ground, of the ground at their uphill side, and of their
+/// roofs: names in the order in which they are preferred, in lower case without separators.
 std::span<const std::string_view> heightNames();
 std::span<const std::string_view> storeyNames();
 std::span<const std::string_view> groundNames();
+std::span<const std::string_view> uphillNames();
+std::span<const std::string_view> roofNames();
 
 /// Indices into `columns` of those that have one of the `names`, best first. Case and the separators _ - : . and space
 /// do not count.

@@ -40,6 +40,7 @@ std::optional<city::City> assembleCity(std::vector<Source> sources, std::span<co
   for (Source& s : sources) dropNonFinite(s, diagnostics);
   const std::string crs = chooseCrs(sources, rasters, request.crs, request.fallbackCrs, diagnostics);
   for (Source& s : sources) project(s, crs, options.shift, diagnostics);
+  for (Source& s : sources) dropFarBuildings(s, diagnostics);
   dropFarSources(sources, diagnostics);
   footprintsFromFlatSolids(sources, diagnostics);
   a.city.crs = crsName(crs);

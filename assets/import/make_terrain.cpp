@@ -7,9 +7,15 @@
 namespace vicus::assets {
 namespace {
 
-/// Terrain made up between buildings: samples this far apart (metres), and this far beyond the outermost building.
+/// Terrain made up between buildings has samples this far apart: metres.
 constexpr double kMadeUpSpacing = 12;
+/// Terrain goes on this far beyond the outermost building where no data say so: metres. Streets end before it does.
 constexpr double kMadeUpMargin = 150;
+/// Share of a building about its middle where the ground made up between buildings has the altitude that is stated.
+constexpr double kHold = 0.5;
+/// Rise over run of that ground at most: streets that people built on are not steeper, and a step between the altitudes
+/// of two neighbours, which are known to a metre or two, is no cliff.
+constexpr double kSteepest = 0.3;
 /// A raster is read this far beyond the outermost building: metres.
 constexpr double kRasterMargin = 500;
 
@@ -39,7 +45,11 @@ void makeTerrain(Assembly& a, const std::vector<Source>& sources, const std::vec
     if (!s.tin.triangles.empty() && tinFile.empty()) tinFile = s.file;
   }
   if (!tin.triangles.empty()) {
-    city::Aabb extent = box;
+    city::Aabb extent;
+    if (!box.empty()) {
+      extent.extend(box.min - kMadeUpMargin);
+      extent.extend(box.max + kMadeUpMargin);
+    }
     for (const glm::uvec3& t : tin.triangles)
       for (int k = 0; k < 3; ++k) extent.extend(tin.points[t[k]]);
     city::HeightField field = fieldOver(extent, spacingOf(tin));
@@ -64,8 +74,13 @@ void makeTerrain(Assembly& a, const std::vector<Source>& sources, const std::vec
   const auto know = [&](std::span<const glm::dvec2> outline, double ground, const std::string& file) {
     ++buildings;
     if (groundFile.empty()) groundFile = file;
+    // One altitude for a building is that of its middle. Were it that of its whole outline, all the slope would lie in
+    // the streets between.
+    glm::dvec2 middle(0);
+    for (const glm::dvec2& p : outline) middle += p / static_cast<double>(outline.size());
     for (size_t i = 0; i < outline.size(); ++i) {
-      const glm::dvec2 from = outline[i], to = outline[(i + 1) % outline.size()];
+      const glm::dvec2 from = glm::mix(middle, outline[i], kHold),
+                       to = glm::mix(middle, outline[(i + 1) % outline.size()], kHold);
       const int pieces = std::clamp(static_cast<int>(std::ceil(glm::length(to - from) / kMadeUpSpacing)), 1, 1000);
       for (int k = 0; k < pieces; ++k) known.emplace_back(glm::mix(from, to, static_cast<double>(k) / pieces), ground);
     }
@@ -93,6 +108,7 @@ void makeTerrain(Assembly& a, const std::vector<Source>& sources, const std::vec
   extent.extend(box.min - kMadeUpMargin);
   extent.extend(box.max + kMadeUpMargin);
   a.city.terrain = fieldThrough(known, extent, kMadeUpSpacing);
+  limitSlope(*a.city.terrain, kSteepest);
   a.diagnostics.warn(groundFile, "",
                      "no elevation given: terrain interpolated from the ground heights of " +
                          counted(buildings, "building", "buildings"));

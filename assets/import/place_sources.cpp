@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "assets/import/assembly.hpp"
 #include "assets/import/projection.hpp"
@@ -61,6 +62,32 @@ city::Aabb townExtent(Source& source) {
   for (const PlacedMesh& m : source.meshes) add(m.position.x, m.position.y);
   for (const glm::dvec3& q : source.tin.points) add(q.x, q.y);
   return box.empty() ? planExtent(source) : box;
+}
+
+const glm::dvec2* firstPoint(const Footprint& f) {
+  for (const FootprintPart& part : f.parts)
+    for (const Ring& ring : part.polygon.rings)
+      if (!ring.empty()) return &ring[0];
+  return nullptr;
+}
+
+/// The median of where the buildings are, which one mistyped coordinate does not move; nothing for fewer than `fewest`.
+std::optional<glm::dvec2> medianOf(const Source& source, size_t fewest) {
+  std::vector<double> xs, ys;
+  const auto add = [&](glm::dvec2 p) {
+    if (sane(p.x, p.y)) xs.push_back(p.x), ys.push_back(p.y);
+  };
+  for (const Footprint& f : source.footprints)
+    if (const glm::dvec2* p = firstPoint(f)) add(*p);
+  for (const SurfaceBuilding& b : source.buildings)
+    if (!b.points.empty()) add(glm::dvec2(b.points[0]));
+  if (xs.size() < std::max<size_t>(fewest, 1)) return std::nullopt;
+  const auto median = [](std::vector<double>& v) {
+    const auto half = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
+    std::nth_element(v.begin(), half, v.end());
+    return *half;
+  };
+  return glm::dvec2(median(xs), median(ys));
 }
 
 bool looksLikeDegrees(const city::Aabb& box) {
@@ -141,7 +168,7 @@ std::string chooseCrs(std::vector<Source>& sources, std::span<const ElevationRas
                            " is taken instead, as --crs says");
       s.crs = fallback;
     }
-    const std::string metric = metricCrs(s.crs, box.centre());
+    const std::string metric = metricCrs(s.crs, medianOf(s, 1).value_or(glm::dvec2(box.centre())));
     if (crs.empty()) crs = metric;
     if (metric.empty())
       diagnostics.error(s.file, "",
@@ -205,6 +232,56 @@ void project(Source& source, const std::string& crs, glm::dvec3 shift, city::Dia
   for (glm::dvec3& q : source.tin.points) q.z = q.z * unit + shift.z;
   for (PlacedMesh& m : source.meshes)
     if (!m.onGround) m.position.z += shift.z;
+}
+
+void dropFarBuildings(Source& source, city::Diagnostics& diagnostics) {
+  // Three say nothing of where the rest is.
+  constexpr size_t kFewest = 4;
+  constexpr double kNear = 5000, kTimes = 10, kMost = 0.8;
+  const auto middle = medianOf(source, kFewest);
+  if (!middle) return;
+
+  // A building is as far off as its farthest point: one mistyped corner makes it useless too.
+  std::vector<double> distances;
+  const auto reachOf = [&](const Footprint& f) {
+    double reach = 0;
+    for (const FootprintPart& part : f.parts)
+      for (const Ring& ring : part.polygon.rings)
+        for (const glm::dvec2& q : ring)
+          if (sane(q.x, q.y)) reach = std::max(reach, glm::length(q - *middle));
+    return reach;
+  };
+  const auto reachOfSurfaces = [&](const SurfaceBuilding& b) {
+    double reach = 0;
+    for (const glm::dvec3& q : b.points)
+      if (sane(q.x, q.y)) reach = std::max(reach, glm::length(glm::dvec2(q) - *middle));
+    return reach;
+  };
+  for (const Footprint& f : source.footprints) distances.push_back(reachOf(f));
+  for (const SurfaceBuilding& b : source.buildings) distances.push_back(reachOfSurfaces(b));
+  const auto nth = static_cast<size_t>(kMost * static_cast<double>(distances.size() - 1));
+  std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(nth), distances.end());
+  const double farthest = std::max(kNear, kTimes * distances[nth]);
+
+  std::vector<std::string> lost;
+  double most = 0;
+  const auto isFar = [&](const std::string& id, double reach) {
+    if (!(reach > farthest)) return false;
+    lost.push_back(id), most = std::max(most, reach);
+    return true;
+  };
+  std::erase_if(source.footprints, [&](const Footprint& f) { return isFar(f.id, reachOf(f)); });
+  std::erase_if(source.buildings, [&](const SurfaceBuilding& b) { return isFar(b.id, reachOfSurfaces(b)); });
+  const auto far = [&](uint32_t i) { return glm::length(glm::dvec2(source.tin.points[i]) - *middle) > farthest; };
+  const size_t triangles =
+      std::erase_if(source.tin.triangles, [&](const glm::uvec3& t) { return far(t.x) || far(t.y) || far(t.z); });
+  if (triangles > 0) diagnostics.leftOut.push_back({"terrain triangles", triangles, "far from all buildings"});
+  if (lost.empty()) return;
+  diagnostics.leftOut.push_back({"buildings", lost.size(), "far from all others of " + source.file});
+  diagnostics.warn(source.file, "",
+                   counted(lost.size(), "building reaches", "buildings reach") + " up to " + shortNumber(most / 1000) +
+                       " km from the middle of all, where four in five lie within " +
+                       shortNumber(distances[nth] / 1000) + " km; left out: " + list(lost));
 }
 
 void dropFarSources(std::vector<Source>& sources, city::Diagnostics& diagnostics) {

@@ -25,6 +25,11 @@ std::string chooseCrs(std::vector<Source>& sources, std::span<const ElevationRas
 /// Brings all positions of a source into the city's CRS and metres, and adds the shift.
 void project(Source& source, const std::string& crs, glm::dvec3 shift, city::Diagnostics& diagnostics);
 
+/// Leaves out buildings (four or more are needed to tell) any point of which lies more than 5 km, and more than ten
+/// times as far as four in five of the buildings reach, from the median of all, and triangles of the terrain that do:
+/// mistyped coordinates.
+void dropFarBuildings(Source& source, city::Diagnostics& diagnostics);
+
 /// Leaves out sources that lie farther from the first than a city can be wide (200 km), with a hint at their CRS.
 void dropFarSources(std::vector<Source>& sources, city::Diagnostics& diagnostics);
 

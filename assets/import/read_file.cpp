@@ -3,6 +3,7 @@
 #include <gdal_priv.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -59,14 +60,18 @@ std::optional<std::string> readText(const std::string& file, city::Diagnostics& 
 /// windows tell more. `wanted` decides where it is given.
 void dropPlainColours(Source& s, const std::optional<bool>& wanted, city::Diagnostics& diagnostics) {
   constexpr size_t kFew = 10;  // buildings: fewer may have been painted by hand
-  std::map<SurfaceKind, std::set<uint32_t>> coloursOf;
+  // By value: some programs write a material of its own for each building.
+  std::map<SurfaceKind, std::set<std::array<float, 3>>> coloursOf;
   size_t painted = 0;
   const auto plain = [&](const Surface& surface) {
     return surface.material < s.materials.size() && s.materials[surface.material].image.empty();
   };
   for (const SurfaceBuilding& b : s.buildings)
     for (const Surface& surface : b.surfaces)
-      if (plain(surface)) coloursOf[surface.kind].insert(surface.material), ++painted;
+      if (plain(surface)) {
+        const glm::vec3 c = s.materials[surface.material].colour;
+        coloursOf[surface.kind].insert({c.x, c.y, c.z}), ++painted;
+      }
   const bool uniform =
       std::all_of(coloursOf.begin(), coloursOf.end(), [](const auto& c) { return c.second.size() == 1; });
   if (painted == 0 || wanted.value_or(!uniform || s.buildings.size() <= kFew)) return;
@@ -128,7 +133,8 @@ void addBareMesh(FileContent& content, const std::string& file) {
   content.sources.push_back(std::move(s));
 }
 
-void readWithGdal(FileContent& content, const SceneSource& source, const std::string& fallbackCrs) {
+void readWithGdal(FileContent& content, const SceneSource& source, const std::string& fallbackCrs,
+                  const std::string& heightUnit) {
   const std::string& file = source.file;
   GdalMessages messages;
   std::unique_ptr<GDALDataset, CloseDataset> dataset(
@@ -150,10 +156,11 @@ void readWithGdal(FileContent& content, const SceneSource& source, const std::st
     if (s.footprints.empty()) content.diagnostics.error(file, "", "holds no building footprints");
     content.sources.push_back(std::move(s));
   }
-  if (dataset->GetRasterCount() > 0) addRaster(content, std::move(dataset), file, {}, fallbackCrs);
+  if (dataset->GetRasterCount() > 0) addRaster(content, std::move(dataset), file, {{}, {}, heightUnit}, fallbackCrs);
 }
 
-void read(FileContent& content, const SceneSource& source, const std::string& fallbackCrs) {
+void read(FileContent& content, const SceneSource& source, const std::string& fallbackCrs,
+          const std::string& heightUnit) {
   const std::string& file = source.file;
   std::error_code error;
   if (!fs::exists(file, error)) {
@@ -188,7 +195,7 @@ void read(FileContent& content, const SceneSource& source, const std::string& fa
     addBareMesh(content, file);
     return;
   }
-  readWithGdal(content, source, fallbackCrs);
+  readWithGdal(content, source, fallbackCrs, heightUnit);
 }
 
 /// Texts of all members "uri" of a JSON text, without reading it whole.
@@ -213,10 +220,10 @@ void CloseDataset::operator()(GDALDataset* dataset) const {
   GDALClose(dataset);
 }
 
-FileContent readFile(const SceneSource& source, const std::string& fallbackCrs) {
+FileContent readFile(const SceneSource& source, const std::string& fallbackCrs, const std::string& heightUnit) {
   FileContent content;
   try {
-    read(content, source, fallbackCrs);
+    read(content, source, fallbackCrs, heightUnit);
   } catch (const std::exception& e) {
     content.diagnostics.error(source.file, "", std::string("could not be read: ") + e.what());
   }

@@ -27,9 +27,9 @@ struct FileContent {
 };
 
 /// Reads a file by what it is: CityJSON, CityGML, 3D Tiles, OpenStreetMap, any OGR vector format, a GDAL raster, or a
-/// mesh. `source.file` is the path that is opened. `fallbackCrs` (WKT) is that of files that state none. Called from
-/// several threads at once.
-FileContent readFile(const SceneSource& source, const std::string& fallbackCrs);
+/// mesh. `source.file` is the path that is opened. `fallbackCrs` (WKT) is that of files that state none;
+/// `heightUnit` that of a raster's heights ("ft"), empty: as it says. Called from several threads at once.
+FileContent readFile(const SceneSource& source, const std::string& fallbackCrs, const std::string& heightUnit = {});
 
 /// Reads a file that can only be elevation.
 FileContent readElevationFile(const std::string& file, const SceneTerrain& terrain, const std::string& fallbackCrs);

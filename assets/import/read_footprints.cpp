@@ -24,7 +24,7 @@ Ring readRing(const OGRLinearRing& line) {
 /// The columns of a layer that matter here.
 struct Columns {
   std::vector<std::string> names;
-  std::vector<size_t> height, storeys, ground;
+  std::vector<size_t> height, storeys, ground, uphill, roof;
   std::optional<size_t> building;  ///< only in OpenStreetMap's own tables, which hold every kind of polygon
   std::optional<size_t> tags;
   bool noBuildings = false;  ///< one of OpenStreetMap's tables that hold none
@@ -38,6 +38,8 @@ Columns findColumns(OGRLayer& layer, const FootprintColumns& wanted, const std::
   out.height = columnsNamed(out.names, heightNames());
   out.storeys = columnsNamed(out.names, storeyNames());
   out.ground = columnsNamed(out.names, groundNames());
+  if (wanted.ground.empty()) out.uphill = columnsNamed(out.names, uphillNames());
+  out.roof = columnsNamed(out.names, roofNames());
   const auto named = [&](const std::string& name, std::vector<size_t>& list, const char* what) {
     if (name.empty()) return;
     const auto found = std::find(out.names.begin(), out.names.end(), name);
@@ -94,10 +96,19 @@ double firstPositive(const OGRFeature& feature, const std::vector<size_t>& colum
   return kUnknown;
 }
 
-double heightOf(const OGRFeature& feature, const Columns& columns) {
+double firstFinite(const OGRFeature& feature, const std::vector<size_t>& columns) {
+  for (const size_t c : columns)
+    if (const double v = number(feature, c); std::isfinite(v)) return v;
+  return kUnknown;
+}
+
+/// From the ground to the eaves: as its own column says, else from the altitudes of roof and ground, else by storeys.
+double heightOf(const OGRFeature& feature, const Columns& columns, double ground) {
   double height = firstPositive(feature, columns.height);
   if (!(height > 0) && columns.tags) height = numberInTags(feature, *columns.tags, "height");
   if (height > 0) return height;
+  for (const size_t c : columns.roof)
+    if (const double h = number(feature, c) - ground; h > 0) return h;
   double storeys = firstPositive(feature, columns.storeys);
   if (!(storeys > 0) && columns.tags) storeys = numberInTags(feature, *columns.tags, "building:levels");
   return storeys > 0 ? storeys * kStoreyHeight : kUnknown;
@@ -194,12 +205,11 @@ Source readFootprints(GDALDataset& dataset, const std::string& file, const Footp
         ++otherGeometry[geometry->getGeometryName()];
         continue;
       }
-      f.height = heightOf(*feature, columns);
-      for (const size_t c : columns.ground)
-        if (const double ground = number(*feature, c); std::isfinite(ground)) {
-          f.ground = ground;
-          break;
-        }
+      f.ground = firstFinite(*feature, columns.ground);
+      // On a slope: half way between its downhill and its uphill side.
+      if (const double uphill = firstFinite(*feature, columns.uphill); uphill > f.ground)
+        f.ground = (f.ground + uphill) / 2;
+      f.height = heightOf(*feature, columns, f.ground);
       for (size_t c = 0; c < columns.names.size(); ++c)
         if (const int i = static_cast<int>(c); feature->IsFieldSetAndNotNull(i))
           f.attributes.emplace_back(columns.names[c], feature->GetFieldAsString(i));

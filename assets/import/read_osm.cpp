@@ -12,6 +12,7 @@
 #include <memory>
 #include <set>
 
+#include "assets/import/assembly.hpp"
 #include "assets/import/columns.hpp"
 #include "assets/import/gdal_messages.hpp"
 #include "assets/import/projection.hpp"
@@ -91,6 +92,15 @@ RoofForm roofOf(const std::string& shape) {
       {"skillion", RoofForm::Slope},  {"lean_to", RoofForm::Slope}, {"monopitched", RoofForm::Slope}};
   const auto found = kForms.find(shape);
   return found == kForms.end() ? RoofForm::Unknown : found->second;
+}
+
+/// What stands in for a roof shape that is not built as such; empty where none does.
+std::string simplified(const std::string& shape) {
+  static const std::map<std::string, const char*> kInstead = {
+      {"gambrel", "gables"}, {"saltbox", "gables"}, {"round", "gables"},   {"half-hipped", "hips"},
+      {"mansard", "hips"},   {"dome", "pyramids"},  {"onion", "pyramids"}, {"cone", "pyramids"}};
+  if (const auto found = kInstead.find(shape); found != kInstead.end()) return found->second;
+  return !shape.empty() && roofOf(shape) == RoofForm::Unknown ? "what suits the outline" : "";
 }
 
 FootprintPart partOf(Polygon polygon, const Tags& tags) {
@@ -195,7 +205,7 @@ class OsmReader {
   void add(const OGRFeature& feature, const std::string& layer);
   /// Puts parts into the outlines that they lie in, and hands over all buildings.
   void finish();
-  void report(city::Diagnostics& diagnostics) const;
+  void report(const std::string& file, city::Diagnostics& diagnostics) const;
 
  private:
   struct Building {
@@ -210,6 +220,7 @@ class OsmReader {
   std::vector<Building> buildings_;
   std::vector<Footprint> parts_;
   std::map<std::string, uint64_t> leftOut_;
+  std::map<std::pair<std::string, std::string>, uint64_t> simplified_;  ///< roof shapes and what stands in for them
 };
 
 Footprint footprintOf(const Tags& tags, const std::string& id, std::vector<Polygon> polygons) {
@@ -221,6 +232,10 @@ Footprint footprintOf(const Tags& tags, const std::string& id, std::vector<Polyg
 }
 
 void OsmReader::addArea(const Tags& tags, const std::string& id, std::vector<Polygon> polygons) {
+  if (tags.has("building:part") || tags.has("building")) {
+    const std::string shape = tags["roof:shape"];
+    if (const std::string instead = simplified(shape); !instead.empty()) ++simplified_[{shape.substr(0, 40), instead}];
+  }
   if (tags.has("building:part")) {
     parts_.push_back(footprintOf(tags, id, std::move(polygons)));
   } else if (tags.has("building")) {
@@ -345,7 +360,11 @@ void OsmReader::finish() {
   }
 }
 
-void OsmReader::report(city::Diagnostics& diagnostics) const {
+void OsmReader::report(const std::string& file, city::Diagnostics& diagnostics) const {
+  std::vector<std::string> shapes;
+  for (const auto& [names, count] : simplified_)
+    shapes.push_back(std::to_string(count) + " " + names.first + " as " + names.second);
+  if (!shapes.empty()) diagnostics.warn(file, "roof:shape", "roofs that are simplified: " + list(shapes));
   for (const auto& [what, count] : leftOut_) diagnostics.leftOut.push_back({what, count, "not shown"});
 }
 
@@ -367,7 +386,7 @@ Source readOsm(GDALDataset& dataset, const std::string& file, GdalMessages& mess
     if (layer) reader.add(*feature, layer->GetName());
   if (const std::string failure = messages.take(); !failure.empty()) diagnostics.error(file, "", failure);
   reader.finish();
-  reader.report(diagnostics);
+  reader.report(file, diagnostics);
   return source;
 }
 

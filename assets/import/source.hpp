@@ -54,6 +54,7 @@ enum class SurfaceKind : uint8_t { Unknown, Wall, Roof, Ground, Window, Door, Ot
 struct Surface {
   SurfaceKind kind = SurfaceKind::Unknown;
   uint32_t shell = 0;  ///< surfaces of one shell bound one volume
+  bool solid = false;  ///< that volume is a solid: nothing of its shell ought to be missing
   std::vector<std::vector<uint32_t>> rings;
   uint32_t material = kNoMaterial;          ///< index into Source::materials
   std::vector<std::vector<glm::vec2>> uvs;  ///< a texture coordinate for each point of a ring; empty: none, or as the

@@ -56,7 +56,7 @@ void addSurfaceBuildings(Assembly& a, const std::vector<Source>& sources) {
       built[i] = buildFromSurfaces(local, s.buildings[i].id, options, reports[i]);
     });
 
-    std::vector<std::string> turned, repaired, bent, lost;
+    std::vector<std::string> turned, repaired, bent, closed, open, lost;
     double highest = 0, deepest = 0;
     std::string highestId, deepestId;
     for (size_t i = 0; i < count; ++i) {
@@ -70,6 +70,8 @@ void addSurfaceBuildings(Assembly& a, const std::vector<Source>& sources) {
       if (r.turned > 0) turned.push_back(b.id);
       if (r.repaired > 0) repaired.push_back(b.id);
       if (r.bent > 0) bent.push_back(b.id);
+      if (r.closed > 0) closed.push_back(b.id);
+      if (r.open > 0) open.push_back(b.id);
       if (r.leftOut > 0) lost.push_back(b.id + " (" + std::to_string(r.leftOut) + ")");
       if (r.floating > highest) highest = r.floating, highestId = b.id;
       if (-r.floating > deepest) deepest = -r.floating, deepestId = b.id;
@@ -94,6 +96,14 @@ void addSurfaceBuildings(Assembly& a, const std::vector<Source>& sources) {
       a.diagnostics.warn(s.file, "",
                          counted(bent.size(), "building has", "buildings have") +
                              " surfaces that are not flat to 2 cm, which were cut into triangles: " + list(bent));
+    if (!closed.empty())
+      a.diagnostics.warn(s.file, "",
+                         counted(closed.size(), "solid was", "solids were") +
+                             " not closed; what was missing was filled in: " + list(closed));
+    if (!open.empty())
+      a.diagnostics.warn(s.file, "",
+                         counted(open.size(), "solid is", "solids are") +
+                             " not closed and stayed so, because too much is missing: " + list(open));
     if (!lost.empty())
       a.diagnostics.warn(s.file, "",
                          counted(lost.size(), "building has", "buildings have") +

@@ -17,6 +17,8 @@ struct SurfaceReport {
   uint32_t turned = 0;    ///< wound the wrong way round and turned
   uint32_t repaired = 0;  ///< crossed or touched themselves
   uint32_t bent = 0;      ///< not flat: drawn as the triangles that its outline gives on its mean plane
+  uint32_t closed = 0;    ///< holes in solids that were filled
+  uint32_t open = 0;      ///< holes in solids that were not
   uint32_t leftOut = 0;   ///< no area, or no triangles could be made
   double floating = 0;    ///< metres that the lowest walls hung above the ground before they were lengthened; negative:
                           ///< they reach into it

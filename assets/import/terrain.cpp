@@ -177,6 +177,31 @@ city::HeightField fieldThrough(std::span<const glm::dvec3> points, const city::A
   return field;
 }
 
+void limitSlope(city::HeightField& field, double steepest) {
+  // Projections onto one pair of neighbours after another: each half of the excess from either. 100 sweeps settle steps
+  // of 20 m on Lyon's slopes to within 5 % of the bound.
+  constexpr int kSweeps = 100;
+  const auto width = static_cast<size_t>(field.size.x);
+  const auto settle = [&](size_t a, size_t b, double most) {
+    const double excess = static_cast<double>(field.heights[b]) - static_cast<double>(field.heights[a]);
+    if (!(std::abs(excess) > most)) return false;
+    const auto half = static_cast<float>((std::abs(excess) - most) / 2 * (excess > 0 ? 1 : -1));
+    field.heights[a] += half, field.heights[b] -= half;
+    return true;
+  };
+  bool moved = true;
+  for (int sweep = 0; sweep < kSweeps && moved; ++sweep) {
+    moved = false;
+    for (int y = 0; y < field.size.y; ++y)
+      for (int x = 0; x < field.size.x; ++x) {
+        const size_t i = static_cast<size_t>(y) * width + static_cast<size_t>(x);
+        if (x + 1 < field.size.x) moved = settle(i, i + 1, steepest * field.spacing.x) || moved;
+        if (y + 1 < field.size.y) moved = settle(i, i + width, steepest * field.spacing.y) || moved;
+      }
+  }
+  field.updateRange();
+}
+
 GroundUnder groundUnder(const city::HeightField& field, std::span<const glm::dvec2> outline) {
   GroundUnder out;
   double sum = 0;

@@ -36,6 +36,10 @@ double spacingOf(const Tin& tin);
 /// are no points.
 city::HeightField fieldThrough(std::span<const glm::dvec3> points, const city::Aabb& extent, double spacing);
 
+/// Moves neighbouring samples towards each other until none differ by more than `steepest` (rise over run, > 0) along
+/// the rows or columns, nearly; their mean stays. Samples without height stay so.
+void limitSlope(city::HeightField& field, double steepest);
+
 /// The ground along a closed outline, looked at every half spacing.
 struct GroundUnder {
   double lowest = 0, highest = 0, mean = 0;

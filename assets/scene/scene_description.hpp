@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "assets/import/style_rules.hpp"
+#include "assets/scene/scene_setting.hpp"
 #include "city/diagnostics.hpp"
 
 namespace vicus::assets {
@@ -59,12 +60,6 @@ struct SceneTour {
   std::string name;
   std::vector<SceneKey> keys;
   bool jumps = false;
-};
-
-/// A knob's setting, to be checked by who knows the knobs.
-struct SceneSetting {
-  std::string text;   ///< "name=value"
-  std::string place;  ///< "line 3, column 1"
 };
 
 /// People to walk in the streets.

@@ -335,6 +335,30 @@ TEST(Columns, NumbersInText) {
   EXPECT_TRUE(std::isnan(numberIn("")));
 }
 
+TEST(Columns, TheUsualNames) {
+  const auto known = [](const char* name, std::span<const std::string_view> names) {
+    const std::string columns[] = {name};
+    return columnsNamed(columns, names).size() == 1;
+  };
+  for (const char* name : {"height", "hauteur", "HAUTEUR", "measuredHeight"}) EXPECT_TRUE(known(name, heightNames()));
+  for (const char* name : {"levels", "story_ht_", "NB_ETAGES"}) EXPECT_TRUE(known(name, storeyNames())) << name;
+  for (const char* name : {"Z_MIN_SOL", "altitude_s", "altitude_minimale_sol"})
+    EXPECT_TRUE(known(name, groundNames())) << name;
+  for (const char* name : {"Z_MAX_TOIT", "Z_MIN_TOIT"}) EXPECT_TRUE(known(name, roofNames())) << name;
+}
+
+TEST(Footprints, AltitudesOfRoofAndGroundGiveTheHeight) {
+  const LoadResult r = loadFeatures({feature(
+      "Polygon", polygon({kL}), R"({"Z_MIN_SOL": 200, "Z_MAX_SOL": 204, "Z_MIN_TOIT": 212, "Z_MAX_TOIT": 215})")});
+  EXPECT_NEAR(onlyBuilding(r).levels[0].top, 10, 1e-6) << "eaves over the ground half way up the slope";
+  EXPECT_EQ(r.city->origin.z, 202);
+  const LoadResult ridge =
+      loadFeatures({feature("Polygon", polygon({kL}), R"({"Z_MIN_SOL": 200, "Z_MAX_TOIT": 215})")});
+  EXPECT_NEAR(onlyBuilding(ridge).levels[0].top, 15, 1e-6);
+  const LoadResult storeys = loadFeatures({feature("Polygon", polygon({kL}), R"({"story_ht_": 4})")});
+  EXPECT_NEAR(onlyBuilding(storeys).levels[0].top, 12, 1e-6);
+}
+
 TEST(Columns, NamesInTheOrderOfPreference) {
   const std::vector<std::string> columns{"H_MAX", "Hauteur", "measured_height", "name"};
   EXPECT_EQ(columnsNamed(columns, heightNames()), (std::vector<size_t>{2, 1, 0}));

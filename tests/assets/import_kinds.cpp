@@ -92,6 +92,21 @@ TEST(OpenStreetMap, HeightsRoofsAndPartsFollowTheMapsRules) {
   EXPECT_TRUE(dated);
 }
 
+TEST(OpenStreetMap, RoofsThatAreSimplifiedAreNamed) {
+  const TemporaryFolder folder;
+  OsmFile osm;
+  int x = 0;
+  for (const char* shape : {"onion", "round", "onion", "gabled", "crosspitched"}) {
+    osm.way({{x, 0}, {x + 2, 0}, {x + 2, 2}, {x, 2}},
+            tag("building", "yes") + tag("height", "9") + tag("roof:shape", shape));
+    x += 4;
+  }
+  const LoadResult r = load(folder.write("town.osm", osm.text()));
+  EXPECT_THAT(messagesOf(r.diagnostics),
+              HasSubstr("roofs that are simplified: 1 crosspitched as what suits the outline, "
+                        "2 onion as pyramids, 1 round as gables"));
+}
+
 TEST(OpenStreetMap, StreetsWaterTreesAndWallsAreContent) {
   const TemporaryFolder folder;
   OsmFile osm;

@@ -98,6 +98,32 @@ TEST(FieldThrough, PassesThroughItsPoints) {
   EXPECT_LE(f.maxHeight, 30 + 1e-3f);
 }
 
+TEST(LimitSlope, WearsCliffsDownAndLeavesTheRest) {
+  city::HeightField f = fieldOver(plan(0, 0, 480, 240), 12);
+  double sum = 0;
+  for (int row = 0; row < f.size.y; ++row)
+    for (int column = 0; column < f.size.x; ++column) {
+      const float h = (column < f.size.x / 2 ? 0.0f : 20.0f) + 0.01f * static_cast<float>(row);
+      f.at(column, row) = h, sum += static_cast<double>(h);
+    }
+  f.at(3, 3) = NAN;
+  const float far = f.at(0, 5);
+  limitSlope(f, 0.3);
+  double steepest = 0, after = 0;
+  for (int row = 0; row < f.size.y; ++row)
+    for (int column = 0; column < f.size.x; ++column) {
+      const auto h = static_cast<double>(f.at(column, row));
+      if (std::isnan(h)) continue;
+      after += h;
+      if (column > 0 && !std::isnan(f.at(column - 1, row)))
+        steepest = std::max(steepest, std::abs(h - static_cast<double>(f.at(column - 1, row))) / 12);
+    }
+  EXPECT_LT(steepest, 0.3 * 1.05);
+  EXPECT_NEAR(after, sum - 0.03, 0.05) << "what one side loses the other gains";
+  EXPECT_EQ(f.at(0, 5), far);
+  EXPECT_TRUE(std::isnan(f.at(3, 3)));
+}
+
 TEST(GroundUnder, FindsLowestHighestAndMeanOfASlope) {
   city::HeightField f = fieldOver(plan(0, 0, 40, 40), 2);
   for (int row = 0; row < f.size.y; ++row)
@@ -177,6 +203,134 @@ TEST(ReadElevation, NeedsACrsAndSaysHowToGiveIt) {
   EXPECT_FALSE(r.city);
   EXPECT_NE(messagesOf(r.diagnostics).find("states no CRS: give one with --crs"), std::string::npos)
       << messagesOf(r.diagnostics);
+}
+
+/// A virtual raster over dem.asc in the same folder that states what an ESRI grid cannot: a CRS and a unit.
+std::string stating(const std::string& crs, const std::string& unit) {
+  return "<VRTDataset rasterXSize=\"4\" rasterYSize=\"3\"><SRS>" + crs +
+         "</SRS><GeoTransform>600000, 10, 0, 6500030, 0, -10</GeoTransform><VRTRasterBand dataType=\"Float32\" "
+         "band=\"1\">" +
+         (unit.empty() ? "" : "<UnitType>" + unit + "</UnitType>") +
+         "<SimpleSource><SourceFilename relativeToVRT=\"1\">dem.asc</SourceFilename><SourceBand>1</SourceBand>"
+         "</SimpleSource></VRTRasterBand></VRTDataset>";
+}
+
+TEST(ReadElevation, UnitsOfHeight) {
+  const TemporaryFolder folder;
+  folder.write("dem.asc", grid(4, 3, std::vector<double>(12, 1000)));
+  struct Case {
+    const char *crs, *unit, *wanted;
+    double metres;
+  };
+  for (const Case& c :
+       {Case{"EPSG:2154", "", "", 1000}, Case{"EPSG:2154", "ft", "", 304.8}, Case{"EPSG:2154", "dm", "", 100},
+        Case{"EPSG:2154", "", "dm", 100}, Case{"EPSG:2154", "", "cm", 10}, Case{"EPSG:2154", "ft", "m", 1000},
+        Case{"EPSG:2154", "", "us-ft", 1000 * 1200.0 / 3937},
+        // The vertical part of a compound CRS: NAVD 88 in feet of the US survey.
+        Case{"EPSG:2154+6360", "", "", 1000 * 1200.0 / 3937}, Case{"EPSG:2154+5720", "", "", 1000}}) {
+    LoadOptions options;
+    options.terrainUnit = c.wanted;
+    const LoadResult r = load(folder.write("dem.vrt", stating(c.crs, c.unit)), options);
+    ASSERT_TRUE(r.city && r.city->terrain) << c.crs << c.unit << messagesOf(r.diagnostics);
+    EXPECT_NEAR(static_cast<double>(r.city->terrain->at(1, 1)) + r.city->origin.z, c.metres, 1e-3)
+        << c.crs << " " << c.unit << " " << c.wanted;
+    EXPECT_EQ(r.city->crs, "EPSG:2154");
+  }
+}
+
+TEST(ReadElevation, DegreesBecomeMetres) {
+  const TemporaryFolder folder;
+  // 0.01° of latitude are 1.11 km, of longitude at 45° north 0.79 km; a plane that rises to the north.
+  std::vector<double> heights;
+  for (int row = 0; row < 50; ++row)
+    for (int column = 0; column < 50; ++column) heights.push_back(300 - 2 * row);
+  std::string text = grid(50, 50, heights);
+  text.replace(text.find("xllcorner 600000"), 16, "xllcorner 7.2")
+      .replace(text.find("yllcorner 6500000"), 17, "yllcorner 45.0");
+  text.replace(text.find("cellsize 10"), 11, "cellsize 0.0002");
+  LoadOptions options;
+  options.crs = "EPSG:4326";
+  const LoadResult r = load(folder.write("dem.asc", text), options);
+  ASSERT_TRUE(r.city && r.city->terrain) << messagesOf(r.diagnostics);
+  EXPECT_EQ(r.city->crs, "EPSG:32632");
+  const city::HeightField& f = *r.city->terrain;
+  EXPECT_NEAR(f.extent().y, 1111, 40);
+  EXPECT_NEAR(f.extent().x, 789, 60);
+  // 2 m for each 0.0002°, which are 22.2 m.
+  const glm::dvec2 middle = f.origin + f.extent() / 2.0;
+  const auto south = f.heightAt(middle.x, middle.y - 200), north = f.heightAt(middle.x, middle.y + 200);
+  ASSERT_TRUE(south && north);
+  EXPECT_NEAR(*north - *south, 400 * 2 / 22.22, 0.5);
+}
+
+TEST(Coordinates, CompoundAndForeignOnesAreBroughtToMetres) {
+  const TemporaryFolder folder;
+  const auto town = [&](const std::string& crs) {
+    return load(folder.write(
+        "town.city.json",
+        R"({"type":"CityJSON","version":"2.0","metadata":{"referenceSystem":")" + crs +
+            R"("},"transform":{"scale":[1,1,1],"translate":[0,0,0]},"CityObjects":{"b":{"type":"Building","geometry":)"
+            R"([{"type":"Solid","lod":"1","boundaries":[[[[0,3,2,1]],[[0,1,5,4]],[[1,2,6,5]],[[2,3,7,6]],[[3,0,4,7]],)"
+            R"([[4,5,6,7]]]]}]}},"vertices":[[980000,200000,0],[980100,200000,0],[980100,200100,0],[980000,200100,0],)"
+            R"([980000,200000,50],[980100,200000,50],[980100,200100,50],[980000,200100,50]]})"));
+  };
+  // New York in feet of the survey, heights too: 100 ft are 30.48 m.
+  const LoadResult feet = town("EPSG:2263+6360");
+  ASSERT_TRUE(feet.city) << messagesOf(feet.diagnostics);
+  EXPECT_EQ(feet.city->crs, "EPSG:32618");
+  const glm::vec3 size = feet.city->buildingTypes.at(0).bounds.size();
+  EXPECT_NEAR(size.z, 50 * 0.3048, 0.01);
+  EXPECT_NEAR(std::abs(areaOf(feet.city->buildingTypes[0], city::PlaneKind::Roof)), std::pow(100 * 0.3048, 2), 1);
+  // Feet on the plan alone: the heights are in feet too, as nothing else is said.
+  const LoadResult plan = town("EPSG:2263");
+  ASSERT_TRUE(plan.city) << messagesOf(plan.diagnostics);
+  EXPECT_NEAR(plan.city->buildingTypes.at(0).bounds.size().z, 50 * 0.3048, 0.01);
+  // The vertical part in metres.
+  const LoadResult mixed = town("EPSG:2263+5703");
+  ASSERT_TRUE(mixed.city) << messagesOf(mixed.diagnostics);
+  EXPECT_NEAR(mixed.city->buildingTypes.at(0).bounds.size().z, 50, 0.01);
+}
+
+TEST(Coordinates, RefusalsSayWhatToDo) {
+  const TemporaryFolder folder;
+  const auto town = [&](const std::string& name, double x, double y, const std::string& crs) {
+    const auto at = [&](double dx, double dy) {
+      return "[" + std::to_string(x + dx) + "," + std::to_string(y + dy) + "]";
+    };
+    return folder.write(
+        name, R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":")" + crs +
+                  R"("}},"features":[)" +
+                  feature("Polygon", "[[" + at(0, 0) + "," + at(20, 0) + "," + at(20, 20) + "," + at(0, 0) + "]]",
+                          R"({"height":8})") +
+                  "]}");
+  };
+  // Metres in a file that says degrees.
+  const LoadResult metres = load(town("metres.geojson", 600000, 6500000, "urn:ogc:def:crs:OGC:1.3:CRS84"));
+  EXPECT_FALSE(metres.city);
+  EXPECT_NE(messagesOf(metres.diagnostics)
+                .find("degrees, but its coordinates reach from 600000.00 m to 600020.00 m: "
+                      "give their true CRS with --crs"),
+            std::string::npos)
+      << messagesOf(metres.diagnostics);
+  LoadOptions told;
+  told.crs = "EPSG:2154";
+  const LoadResult mended = load(town("metres.geojson", 600000, 6500000, "urn:ogc:def:crs:OGC:1.3:CRS84"), told);
+  ASSERT_TRUE(mended.city) << messagesOf(mended.diagnostics);
+  EXPECT_EQ(mended.city->crs, "EPSG:2154");
+  // Two towns that no city holds.
+  const std::string two[] = {town("here.geojson", 600000, 6500000, "urn:ogc:def:crs:EPSG::2154"),
+                             town("there.geojson", 900000, 6900000, "urn:ogc:def:crs:EPSG::2154")};
+  const LoadResult far = loadCity(two, {});
+  ASSERT_TRUE(far.city);
+  EXPECT_EQ(far.city->buildings.size(), 1u);
+  EXPECT_NE(messagesOf(far.diagnostics).find("lies 500 km from " + two[0] + " and is left out: is its CRS right?"),
+            std::string::npos)
+      << messagesOf(far.diagnostics);
+  // A CRS that nobody knows.
+  told.crs = "EPSG:999999";
+  EXPECT_NE(messagesOf(load(town("here.geojson", 600000, 6500000, "urn:ogc:def:crs:EPSG::2154"), told).diagnostics)
+                .find("EPSG:999999"),
+            std::string::npos);
 }
 
 TEST(ReadElevation, BuildingsStandOnIt) {
