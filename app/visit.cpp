@@ -1,5 +1,7 @@
 #include "app/visit.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -18,9 +20,7 @@ namespace {
 /// The first name of the row NAME-001, NAME-002, … that is free in the folder.
 std::filesystem::path freeName(const std::string& folder, const std::string& name, const std::string& suffix) {
   for (int number = 1;; ++number) {
-    char digits[16];
-    std::snprintf(digits, sizeof digits, "-%03d", number);
-    const std::filesystem::path path = std::filesystem::path(folder) / (name + digits + suffix);
+    std::filesystem::path path = std::filesystem::path(folder) / fmt::format("{}-{:03}{}", name, number, suffix);
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored)) return path;
   }

@@ -23,6 +23,8 @@ class Visit {
   /// Pictures and recorded tours go to `folder`.
   Visit(viewer::Window& window, std::string scene, std::string folder);
 
+  viewer::Window& window() { return window_; }
+
   /// Paints how far loading is, at most ten times a second. False once the visitor has asked to leave.
   bool showLoading(const std::string& stage, double fraction);
   /// Says what went wrong until the visitor closes the window.

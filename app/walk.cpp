@@ -137,17 +137,16 @@ std::optional<city::Tour> chooseTour(const WalkOptions& options, const city::Cit
 /// Where the next view comes from, frame after frame.
 class Guide {
  public:
-  Guide(const WalkOptions& options, const OpenScene& scene, const city::Tour& tour, viewer::Window* window,
-        Visit* visit)
+  /// `visit`: of the window; null offscreen.
+  Guide(const WalkOptions& options, const OpenScene& scene, const city::Tour& tour, Visit* visit)
       : tour_(tour),
-        window_(window),
         visit_(visit),
         size_(options.size),
         fov_(glm::radians(scene.knobs["viewer.fov"])),
         fps_(options.fps) {
     const bool guided = !options.path.empty() || !options.tour.empty();
-    free_ = window && !guided && options.views.empty() && !options.frames && !options.fps;
-    live_ = window && options.views.empty() && !options.frames;
+    free_ = visit && !guided && options.views.empty() && !options.frames && !options.fps;
+    live_ = visit && options.views.empty() && !options.frames;
     if (!live_) planned_ = plannedViews(options, tour, fov_);
   }
 
@@ -169,12 +168,12 @@ class Guide {
 
   std::optional<viewer::NextView> next() {
     viewer::Input input;
-    if (window_) input = window_->poll(), size_ = window_->size();
+    if (visit_) input = visit_->window().poll(), size_ = visit_->window().size();
     if (input.quit || interrupted()) return std::nullopt;
     if (visit_) visit_->handleWindow(input);
-    if (live_ && lookedInto_) lookInto(input);
+    if (visit_ && live_ && lookedInto_) lookInto(*visit_, input);
     std::optional<viewer::NextView> next = live_ ? liveView(input) : plannedView();
-    if (window_) window_->freeMouse(panelHasMouse_ || (free_ && visit_->navigator().wantsPointer()));
+    if (visit_) visit_->window().freeMouse(panelHasMouse_ || (free_ && visit_->navigator().wantsPointer()));
     return next;
   }
 
@@ -184,14 +183,14 @@ class Guide {
  private:
   /// F2 shows the overlay and gives it the mouse; F3 freezes the plan, and the visitor flies out to see it. Thawed, the
   /// visitor is back where it was frozen.
-  void lookInto(viewer::Input& input) {
+  void lookInto(Visit& visit, viewer::Input& input) {
     if (input.toggleOverlay) lookedInto_->showOverlay(!lookedInto_->overlayShown());
     if (input.toggleFreeze) {
       lookedInto_->freeze(!lookedInto_->frozen());
       if (lookedInto_->frozen())
-        visit_->flyOut(pose_), frozenFree_ = std::exchange(free_, true);
+        visit.flyOut(pose_), frozenFree_ = std::exchange(free_, true);
       else
-        visit_->flyBack(), free_ = frozenFree_;
+        visit.flyBack(), free_ = frozenFree_;
     }
     // The panel has the mouse, and the head turns only while the right button is held.
     panelHasMouse_ = lookedInto_->overlayShown() && !input.rightButton;
@@ -213,7 +212,7 @@ class Guide {
     const double now = warmUp ? 0 : fps_ ? due_ : secondsSince(begin_);
     const double dt = now - time_;
     time_ = now;
-    if (free_) {
+    if (visit_ && free_) {
       visit_->step(input, now, dt);
       return nextView(visit_->navigator().pose, fov_, now, dt, warmUp);
     }
@@ -229,8 +228,7 @@ class Guide {
   }
 
   const city::Tour& tour_;
-  viewer::Window* window_;
-  Visit* visit_;  ///< of the window
+  Visit* visit_;
   glm::ivec2 size_;
   double fov_;
   std::optional<double> fps_;
@@ -320,7 +318,7 @@ int walk(const WalkOptions& options, const Surroundings& surroundings) {
 
   // The walk.
   if (visit) visit->arrive(*scene, tours, *tour);
-  Guide guide(options, *scene, *tour, screen.window, visit ? &*visit : nullptr);
+  Guide guide(options, *scene, *tour, visit ? &*visit : nullptr);
   const PictureChoice pictures = choosePictures(options, guide.countedFrames());
   std::string pictureProblem;
   size_t written = 0;
