@@ -10,6 +10,8 @@
 #include <unordered_map>
 
 #include "assets/import/cityjson_geometry.hpp"
+#include "assets/import/cityjson_objects.hpp"
+#include "assets/import/cityjson_text.hpp"
 #include "assets/import/columns.hpp"
 #include "assets/import/parallel.hpp"
 #include "assets/import/projection.hpp"
@@ -20,93 +22,10 @@ namespace {
 using cityjson::Geometry;
 using cityjson::Json;
 using cityjson::member;
+using cityjson::parse;
+using cityjson::Role;
 using cityjson::shown;
 using cityjson::textOf;
-
-/// What of an object is in the city.
-enum class Role { Building, Part, Terrain, Water, Cover, Tree, LeftOut, Unknown };
-
-Role roleOf(const std::string& type) {
-  static const std::map<std::string, Role> kRoles = {{"Building", Role::Building},
-                                                     {"BuildingPart", Role::Part},
-                                                     {"BuildingInstallation", Role::Part},
-                                                     {"BuildingConstructiveElement", Role::Part},
-                                                     {"OtherConstruction", Role::Building},
-                                                     {"GenericCityObject", Role::Building},
-                                                     {"Bridge", Role::Building},
-                                                     {"BridgePart", Role::Part},
-                                                     {"BridgeInstallation", Role::Part},
-                                                     {"BridgeConstructionElement", Role::Part},
-                                                     {"BridgeConstructiveElement", Role::Part},
-                                                     {"Tunnel", Role::Building},
-                                                     {"TunnelPart", Role::Part},
-                                                     {"TunnelInstallation", Role::Part},
-                                                     {"TunnelConstructiveElement", Role::Part},
-                                                     {"TINRelief", Role::Terrain},
-                                                     {"WaterBody", Role::Water},
-                                                     {"Waterway", Role::Water},
-                                                     {"Road", Role::Cover},
-                                                     {"Railway", Role::Cover},
-                                                     {"TransportSquare", Role::Cover},
-                                                     {"TransportationSquare", Role::Cover},
-                                                     {"PlantCover", Role::Cover},
-                                                     {"LandUse", Role::Cover},
-                                                     {"SolitaryVegetationObject", Role::Tree}};
-  static const std::set<std::string> kOthers = {
-      "BridgeRoom",   "BridgeFurniture", "BuildingFurniture", "BuildingRoom",    "BuildingStorey",
-      "BuildingUnit", "CityFurniture",   "CityObjectGroup",   "TunnelFurniture", "TunnelHollowSpace"};
-  const auto found = kRoles.find(type);
-  if (found != kRoles.end()) return found->second;
-  return kOthers.contains(type) ? Role::LeftOut : Role::Unknown;
-}
-
-city::Ground coverOf(const std::string& type) {
-  if (type == "PlantCover") return city::Ground::Garden;
-  if (type == "LandUse") return city::Ground::Grass;
-  if (type == "Railway") return city::Ground::Earth;
-  return type == "Road" ? city::Ground::Street : city::Ground::Paving;
-}
-
-/// Scalars of nested attributes, "roof.type.value".
-void flatten(const Json& value, const std::string& name, int depth, city::Attributes& out) {
-  constexpr int kDeepest = 8;
-  if (value.is_object() && depth < kDeepest) {
-    for (const auto& [key, inner] : value.items())
-      flatten(inner, name.empty() ? key : name + "." + key, depth + 1, out);
-  } else if (value.is_array() && depth < kDeepest) {
-    for (size_t i = 0; i < value.size(); ++i)
-      flatten(value[i], value.size() == 1 ? name : name + "." + std::to_string(i), depth + 1, out);
-  } else if (value.is_string()) {
-    out.emplace_back(name, value.get<std::string>());
-  } else if (value.is_primitive() && !value.is_null()) {
-    out.emplace_back(name, value.dump());
-  }
-}
-
-/// First number among attributes with one of the usual names; an object's "value" counts as the attribute.
-double firstNumberNamed(const city::Attributes& attributes, std::span<const std::string_view> names,
-                        double above = -INFINITY) {
-  std::vector<std::string> keys;
-  for (const auto& [key, value] : attributes)
-    keys.push_back(key.ends_with(".value") ? key.substr(0, key.size() - 6) : key);
-  for (const size_t i : columnsNamed(keys, names))
-    if (const double v = numberIn(attributes[i].second); v > above) return v;
-  return kUnknown;
-}
-
-double heightIn(const city::Attributes& attributes, const std::string& column) {
-  if (!column.empty()) {
-    const std::string_view name[] = {column};
-    for (const auto& [key, value] : attributes)
-      if (key == name[0] || key == column + ".value") return numberIn(value);
-  }
-  const double height = firstNumberNamed(attributes, heightNames(), 0);
-  if (height > 0) return height;
-  const double storeys = firstNumberNamed(attributes, storeyNames(), 0);
-  static constexpr std::string_view kStorey[] = {"floorheight", "storeyheight"};
-  const double storey = firstNumberNamed(attributes, kStorey, 0);
-  return storeys * (storey > 0 ? storey : kStoreyHeight);
-}
 
 class Reader {
  public:
@@ -197,11 +116,11 @@ void Reader::addFamily(const std::string& id, const std::vector<std::string>& me
   for (const std::string& m : members) {
     const Json& object = objects.at(m);
     if (m == id) {
-      flatten(member(object, "attributes"), "", 0, attributes);
+      cityjson::flatten(member(object, "attributes"), "", 0, attributes);
     } else {
       city::Attributes own;
-      flatten(member(object, "attributes"), "", 0, own);
-      const double h = heightIn(own, options_.heightColumn);
+      cityjson::flatten(member(object, "attributes"), "", 0, own);
+      const double h = cityjson::heightIn(own, options_.heightColumn);
       if (h > 0 && !(partHeight >= h)) partHeight = h;
     }
     std::vector<Geometry> geometries = geometriesOf(m, object);
@@ -238,12 +157,12 @@ void Reader::addFamily(const std::string& id, const std::vector<std::string>& me
   }
   if (!building.surfaces.empty()) {
     building.id = id;
-    building.ground = firstNumberNamed(attributes, groundNames());
+    building.ground = cityjson::firstNumberNamed(attributes, groundNames());
     building.attributes = std::move(attributes);
     source.buildings.push_back(std::move(building));
   } else if (!footprint.parts.empty()) {
     footprint.id = id;
-    footprint.height = heightIn(attributes, options_.heightColumn);
+    footprint.height = cityjson::heightIn(attributes, options_.heightColumn);
     if (!(footprint.height > 0)) footprint.height = partHeight;
     footprint.ground = lowest;
     footprint.attributes = std::move(attributes);
@@ -291,7 +210,7 @@ void Reader::addArea(const std::string& id, const Json& object, Role role, Sourc
   if (role == Role::Water)
     source.surroundings.water.push_back({id, std::move(parts)});
   else
-    source.surroundings.cover.push_back({coverOf(textOf(member(object, "type"))), std::move(parts)});
+    source.surroundings.cover.push_back({cityjson::coverOf(textOf(member(object, "type"))), std::move(parts)});
 }
 
 /// A tree in the middle of its geometry, as high as that.
@@ -345,7 +264,7 @@ Source Reader::read() {
   std::map<std::string, uint64_t> leftOut, unknown;
   for (const auto& [id, object] : objects.items()) {
     const std::string type = textOf(member(object, "type"));
-    const Role role = roleOf(type);
+    const Role role = cityjson::roleOf(type);
     switch (role) {
       case Role::Unknown:
         if (type.empty()) {
@@ -386,35 +305,6 @@ Source Reader::read() {
   return source;
 }
 
-/// "line 3, column 17" of a byte.
-std::string lineAndColumn(std::string_view text, size_t byte, size_t firstLine = 1) {
-  byte = std::min(byte, text.size());
-  const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(byte), '\n') +
-                    static_cast<std::ptrdiff_t>(firstLine);
-  const size_t start = byte == 0 ? std::string_view::npos : text.rfind('\n', byte - 1);
-  const size_t column = byte - (start == std::string_view::npos ? 0 : start + 1);
-  return "line " + std::to_string(line) + ", column " + std::to_string(column);
-}
-
-/// The JSON of a text; nothing, with a message, where it is none. `firstLine` is the line of the file that it begins
-/// in.
-std::optional<Json> parse(std::string_view text, const std::string& file, size_t firstLine,
-                          city::Diagnostics& diagnostics) {
-  const auto refuse = [&](size_t byte, std::string what) {
-    if (const size_t at = what.find("; last read"); at != std::string::npos) what = what.substr(0, at);
-    if (const size_t at = what.rfind(": "); at != std::string::npos) what = what.substr(at + 2);
-    diagnostics.error(file, lineAndColumn(text, byte, firstLine), "this is not JSON: " + what);
-    return std::nullopt;
-  };
-  try {
-    return Json::parse(text);
-  } catch (const Json::parse_error& e) {
-    return refuse(e.byte, e.what());
-  } catch (const Json::exception& e) {
-    return refuse(0, e.what());
-  }
-}
-
 void checkVersion(const Json& root, const std::string& file, city::Diagnostics& diagnostics) {
   const std::string version = textOf(member(root, "version"));
   if (!(version.starts_with("1.") || version.starts_with("2.")))
@@ -422,30 +312,6 @@ void checkVersion(const Json& root, const std::string& file, city::Diagnostics& 
                      (version.empty() ? std::string("none is stated")
                                       : version.substr(0, 40) + " is older or newer than 1.0 to 2.0") +
                          "; read as far as it agrees with these");
-}
-
-/// Adds the content of one feature of a sequence to that of those before it.
-void append(Source& whole, Source&& part) {
-  const auto base = static_cast<uint32_t>(whole.materials.size());
-  // Most features have no appearance of their own: then all share the header's.
-  const bool same = part.materials == whole.materials;
-  if (!same) {
-    for (SurfaceBuilding& b : part.buildings)
-      for (Surface& s : b.surfaces)
-        if (s.material != kNoMaterial) s.material += base;
-    whole.materials.insert(whole.materials.end(), part.materials.begin(), part.materials.end());
-  }
-  const auto move = [](auto& to, auto& from) {
-    to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
-  };
-  move(whole.buildings, part.buildings);
-  move(whole.footprints, part.footprints);
-  move(whole.surroundings.water, part.surroundings.water);
-  move(whole.surroundings.cover, part.surroundings.cover);
-  move(whole.surroundings.trees, part.surroundings.trees);
-  const auto firstPoint = static_cast<uint32_t>(whole.tin.points.size());
-  move(whole.tin.points, part.tin.points);
-  for (const glm::uvec3& t : part.tin.triangles) whole.tin.triangles.push_back(t + firstPoint);
 }
 
 /// Entries of what was left out that say the same, added up.
@@ -499,7 +365,7 @@ Source readSequence(const Json& header, std::string_view rest, const std::string
       sum.entry = l;
       sum.count += l.count;
     }
-    append(whole, std::move(parts[i]));
+    cityjson::append(whole, std::move(parts[i]));
   }
   for (auto& [key, sum] : leftOut) {
     sum.entry.count = sum.count;
@@ -509,25 +375,6 @@ Source readSequence(const Json& header, std::string_view rest, const std::string
 }
 
 }  // namespace
-
-bool isCityJson(std::string_view text) {
-  if (text.find("\"CityJSONFeature\"") != std::string_view::npos) return true;
-  // The member may stand anywhere at the top level, and before or after megabytes of others.
-  for (size_t at = text.find("\"CityJSON\""); at != std::string_view::npos; at = text.find("\"CityJSON\"", at + 1)) {
-    size_t before = at;
-    const auto skipSpace = [&] {
-      while (before > 0 && (text[before - 1] == ' ' || text[before - 1] == '\t' || text[before - 1] == '\n' ||
-                            text[before - 1] == '\r'))
-        --before;
-    };
-    skipSpace();
-    if (before == 0 || text[before - 1] != ':') continue;
-    --before;
-    skipSpace();
-    if (before >= 6 && text.substr(before - 6, 6) == "\"type\"") return true;
-  }
-  return false;
-}
 
 Source readCityJson(std::string_view text, const std::string& file, const CityJsonOptions& options,
                     city::Diagnostics& diagnostics) {

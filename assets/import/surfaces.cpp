@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "assets/import/face_occluder.hpp"
 #include "assets/import/polygon.hpp"
 #include "assets/import/shells.hpp"
 
@@ -34,27 +35,6 @@ struct Mesh {
   std::vector<glm::vec2> uvs;  ///< the source's texture coordinates; empty where it gives none
   std::vector<uint32_t> triangles;
 };
-
-/// Axes of a face: u level and to the right seen from outside, v up the slope. For a level face u runs along its
-/// longest edge.
-struct Axes {
-  glm::dvec3 u, v;
-};
-
-Axes axesOf(const Face& face, const std::vector<glm::dvec3>& points) {
-  glm::dvec3 u = glm::cross(glm::dvec3(0, 0, 1), face.normal);
-  if (glm::length(u) < 0.02) {
-    double longest = 0;
-    const auto& ring = face.rings[0];
-    for (size_t i = 0; i < ring.size(); ++i) {
-      const glm::dvec3 d = points[ring[(i + 1) % ring.size()]] - points[ring[i]];
-      if (glm::length(d) > longest) longest = glm::length(d), u = d;
-    }
-    u -= face.normal * glm::dot(u, face.normal);
-  }
-  u = glm::normalize(u);
-  return {u, glm::cross(face.normal, u)};
-}
 
 /// Texture coordinates over a face's plane: those of its own points where they are asked for, else those of the affine
 /// map that fits them best.
@@ -167,49 +147,6 @@ Span spanOf(const Face& face, const Axes& axes, const std::vector<glm::dvec3>& p
   return s;
 }
 
-/// The largest level band of an upright wall that it covers over its whole width: from the highest point of its lower
-/// edge to the lowest of its upper one. Nothing where the outline goes back on itself.
-std::optional<city::OccluderLine> occluderOf(const Face& face, const Axes& axes,
-                                             const std::vector<glm::dvec3>& points) {
-  if (std::abs(face.normal.z) > 0.01 || face.rings.size() != 1 || face.bothSides || face.bent) return std::nullopt;
-  const auto& ring = face.rings[0];
-  const size_t n = ring.size();
-  const auto along = [&](size_t i) { return glm::dot(points[ring[i % n]], axes.u); };
-  size_t left = 0, right = 0;
-  for (size_t i = 0; i < n; ++i) {
-    if (along(i) < along(left)) left = i;
-    if (along(i) > along(right)) right = i;
-  }
-  constexpr double kSame = 0.02;  // metres: points over each other at either end
-  if (along(right) - along(left) < 0.1) return std::nullopt;
-  // Counter-clockwise from outside: the lower edge runs to the right, the upper one back.
-  double bottom = -INFINITY, top = INFINITY;
-  for (size_t i = left; i % n != right; ++i) {
-    if (along(i + 1) < along(i) - kSame) return std::nullopt;
-  }
-  for (size_t i = right; i % n != left; ++i) {
-    if (along(i + 1) > along(i) + kSame) return std::nullopt;
-  }
-  // Points at the ends belong to the upright sides: the lower edge takes their lowest, the upper one their highest.
-  double leftLow = INFINITY, leftHigh = -INFINITY, rightLow = INFINITY, rightHigh = -INFINITY;
-  for (size_t i = 0; i < n; ++i) {
-    const double z = points[ring[i]].z;
-    if (along(i) < along(left) + kSame) leftLow = std::min(leftLow, z), leftHigh = std::max(leftHigh, z);
-    if (along(i) > along(right) - kSame) rightLow = std::min(rightLow, z), rightHigh = std::max(rightHigh, z);
-  }
-  bottom = std::max(leftLow, rightLow), top = std::min(leftHigh, rightHigh);
-  for (size_t i = left; i % n != right; ++i)
-    if (along(i) >= along(left) + kSame && along(i) <= along(right) - kSame)
-      bottom = std::max(bottom, points[ring[i % n]].z);
-  for (size_t i = right; i % n != left; ++i)
-    if (along(i) >= along(left) + kSame && along(i) <= along(right) - kSame) top = std::min(top, points[ring[i % n]].z);
-  if (!(top - bottom > 0.1)) return std::nullopt;
-  city::OccluderLine line;
-  line.a = glm::vec2(points[ring[left]]), line.b = glm::vec2(points[ring[right]]);
-  line.bottom = static_cast<float>(bottom), line.top = static_cast<float>(top);
-  return line;
-}
-
 /// Puts faces into a BuildingBuilder.
 class SurfaceBuilder {
  public:
@@ -308,17 +245,21 @@ void SurfaceBuilder::add(const Face& face) {
 }
 
 /// Where the lowest storey of a wall begins: at its foot, or where the ground stands higher against it, there, so that
-/// no window sinks. At least one storey of the wall is left.
+/// no window sinks. Where the ground slopes along the wall it may stand against the lowest storey up to below its
+/// sills. At least one storey of the wall is left.
 double SurfaceBuilder::facadeFoot(const Face& face, const Span& span) const {
   if (!options_.groundAt) return span.bottom;
-  double ground = span.bottom;
+  constexpr double kBelowSill = 0.6;  // metres; sills lie 0.85 m above the floor
+  double lowest = INFINITY, highest = span.bottom;
   const auto& ring = face.rings[0];
   for (size_t i = 0; i < ring.size(); ++i) {
     const glm::dvec3 a = points_[ring[i]], b = points_[ring[(i + 1) % ring.size()]];
     for (const glm::dvec3& p : {a, (a + b) / 2.0})
-      if (const double h = options_.groundAt(glm::dvec2(p)); h > ground) ground = h;
+      if (const double h = options_.groundAt(glm::dvec2(p)); std::isfinite(h))
+        lowest = std::min(lowest, h), highest = std::max(highest, h);
   }
-  return std::min(ground, std::max(span.bottom, span.top - kSmallestFacadeHeight));
+  const double foot = std::max({span.bottom, std::min(lowest, highest), highest - kBelowSill});
+  return std::min(foot, std::max(span.bottom, span.top - kSmallestFacadeHeight));
 }
 
 /// Lengthens a wall's foot to below the ground, in the wall's own plane. Under a wall that hides what is behind it, the
