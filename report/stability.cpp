@@ -5,6 +5,7 @@
 #include "assets/import/import_stability.hpp"
 #include "culling/cull_map_stability.hpp"
 #include "culling/stability.hpp"
+#include "facade/stability.hpp"
 #include "terrain/stability.hpp"
 
 namespace vicus::report {
@@ -18,6 +19,7 @@ std::vector<city::StabilityRow> allStability() {
   add(culling::frustumStability());
   add(culling::cullMapStability());
   add(terrain::roamStability());
+  add(facade::rulesStability());
   return rows;
 }
 
