@@ -57,7 +57,7 @@ struct Derivation {
 
 /// Bounds on one house.
 constexpr uint32_t kDeepestRule = 48;
-constexpr uint64_t kMostScopes = 20000;
+constexpr uint64_t kMostScopes = 50000;
 constexpr uint32_t kMostRepeats = 1000;
 /// Scopes smaller than this on a side are empty: metres.
 constexpr double kSmallestScope = 1e-4;

@@ -287,7 +287,7 @@ class Builder {
                             hash32(seed, surface.edge + 11), made_);
       addGable(builder_, surface, frame, detail, use_.looks, style_.plainPaint);
     }
-    addEaves(builder_, volume.rings, party, *roof_, overhang, covering, use_.looks[style_.plainPaint]);
+    addEaves(builder_, volume.rings, party, *roof_, overhang, covering, use_.looks[style_.eavesPaint]);
   }
 
   void dormers(const Operation& o, uint32_t seed) {

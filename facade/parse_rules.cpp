@@ -1,6 +1,8 @@
 #include "facade/parse_rules.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <map>
 #include <numbers>
 
@@ -122,6 +124,8 @@ class Parser {
       }
     }
     if (errors_ == 0) checkRules();
+    if (style_.plainPaint == kNothing) style_.plainPaint = paint("plaster");
+    if (style_.eavesPaint == kNothing) style_.eavesPaint = style_.plainPaint;
     if (errors_ > 0) return std::nullopt;
     return std::move(style_);
   }
@@ -197,7 +201,8 @@ class Parser {
     if (isName("param")) return parameter();
     if (isName("let")) return choice();
     if (isName("far")) return far();
-    if (isName("plain")) return plain();
+    if (isName("plain")) return one(style_.plainPaint);
+    if (isName("eaves")) return one(style_.eavesPaint);
     rule();
   }
 
@@ -214,9 +219,9 @@ class Parser {
     if (!(style_.bay.x >= 0.5 && style_.bay.y >= 0.5)) fail(tokens_[next_ - 1].place, "a bay has at least 0.5 m");
   }
 
-  void plain() {
+  void one(uint32_t& out) {
     take();
-    style_.plainPaint = paint(needText("the name of a texture"));
+    out = paint(needText("the name of a texture"));
   }
 
   /// A number with its unit, which may be negative.
@@ -296,7 +301,7 @@ class Parser {
 
   void rule() {
     const Token name = at();
-    needName("a rule, or style, param, let, far or plain");
+    needName("a rule, or style, param, let, far, plain or eaves");
     Alternative way;
     if (takeSign(":")) way.condition = expression();
     if (takeSign("@")) way.weight = expression();
@@ -455,8 +460,21 @@ class Parser {
     expected(what + " (" + all + ")");
   }
 
-  uint32_t paint(const std::string& texture, glm::vec3 colour = glm::vec3(1)) {
-    const Paint wanted{texture, colour};
+  /// `texture#rrggbb` names a colour too.
+  uint32_t paint(std::string texture, glm::vec3 colour = glm::vec3(1)) {
+    if (const size_t mark = texture.find('#'); mark != std::string::npos) {
+      uint32_t hex = 0;
+      const char* const from = texture.data() + mark + 1;
+      const char* const end = texture.data() + texture.size();
+      if (const auto read = std::from_chars(from, end, hex, 16); end - from != 6 || read.ptr != end)
+        fail(tokens_[next_ > 0 ? next_ - 1 : 0].place, "a colour is # and six hexadecimal digits");
+      for (glm::length_t i = 0; i < 3; ++i) {
+        const float v = static_cast<float>((hex >> (16 - 8 * i)) & 255) / 255;
+        colour[i] *= v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
+      }
+      texture.resize(mark);
+    }
+    const Paint wanted{std::move(texture), colour};
     const auto found = std::find(style_.paints.begin(), style_.paints.end(), wanted);
     if (found != style_.paints.end()) return static_cast<uint32_t>(found - style_.paints.begin());
     style_.paints.push_back(wanted);

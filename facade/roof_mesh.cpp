@@ -126,7 +126,7 @@ void addFlatRoof(BuildingBuilder& builder, std::span<const Ring> rings, double z
 void addEaves(BuildingBuilder& builder, std::span<const Ring> rings, std::span<const std::vector<uint8_t>> party,
               const BuiltRoof& roof, double overhang, const PaintLook& covering, const PaintLook& board) {
   if (!(overhang > 0.02)) return;
-  constexpr double kThick = 0.14;
+  constexpr double kThick = 0.22;  // of the rafters' ends at the wall
   // The fall of the slope over each eave; none: no slope stands there.
   std::vector<std::vector<double>> fall, by;
   for (const Ring& ring : rings) fall.emplace_back(ring.size(), 0), by.emplace_back(ring.size(), 0);
@@ -145,20 +145,31 @@ void addEaves(BuildingBuilder& builder, std::span<const Ring> rings, std::span<c
     for (size_t e = 0; e < n; ++e) {
       if (!(by[r][e] > 0)) continue;
       const size_t k = (e + 1) % n, before = (e + n - 1) % n;
-      const dvec2 a = ring[e], b = ring[k], c = movedCorner(ring, by[r], k), d = movedCorner(ring, by[r], e);
+      const dvec2 a = ring[e], b = ring[k];
       const double length = glm::length(b - a);
+      if (!(length > 1e-3)) continue;
+      const dvec2 along = (b - a) / length, out(along.y, -along.x);
+      // Mitred with the next eave, but square where a sharp corner would draw the mitre out of the slope's line.
+      const auto corner = [&](size_t i) {
+        const dvec2 mitred = movedCorner(ring, by[r], i);
+        const bool inLine = std::abs(glm::dot(mitred - ring[i], out) - overhang) < 1e-6;
+        return inLine ? mitred : ring[i] + out * overhang;
+      };
+      const dvec2 c = corner(k), d = corner(e);
       if (!(glm::dot(b - a, c - d) > 0.1 * length * length)) continue;
-      const dvec2 along = (b - a) / length;
       const double top = roof.eaves, rim = top - fall[r][e], low = rim - kThick;
       const auto at = [&](dvec2 p, double z) { return glm::vec3(dvec3(p, z)); };
       builder.beginPlane(PlaneKind::Other, covering.material, glm::vec3(along.y, -along.x, 0), false);
       builder.beginExternalGeometry(static_cast<float>(overhang));
       builder.addQuad(at(d, rim), at(c, rim), at(b, top), at(a, top), covering.material);
-      builder.addQuad(at(d, low), at(c, low), at(c, rim), at(d, rim), board.material);
-      builder.addQuad(at(a, low), at(b, low), at(c, low), at(d, low), board.material);
-      // Where the next wall has no eave the slab's end shows.
-      if (by[r][before] == 0) builder.addQuad(at(a, low), at(d, low), at(d, rim), at(a, top), board.material);
-      if (by[r][k] == 0) builder.addQuad(at(c, low), at(b, low), at(b, top), at(c, rim), board.material);
+      builder.addQuad(at(a, low), at(b, low), at(c, rim), at(d, rim), board.material);
+      // Where the next wall has no eave the end shows.
+      const auto end = [&](glm::vec3 p, glm::vec3 q, glm::vec3 s, glm::vec3 u) {
+        const glm::vec3 corners[] = {p, q, s};
+        builder.addConvex(corners, u, {0, 0, 1}, board.material);
+      };
+      if (by[r][before] == 0) end(at(a, low), at(d, rim), at(a, top), {along.y, -along.x, 0});
+      if (by[r][k] == 0) end(at(b, low), at(b, top), at(c, rim), {along.y, -along.x, 0});
     }
   }
 }

@@ -35,7 +35,7 @@ void addGable(city::BuildingBuilder& builder, const RoofSurface& surface, const 
 void addFlatRoof(city::BuildingBuilder& builder, std::span<const Ring> rings, double z, double parapet,
                  const PaintLook& covering, const PaintLook& wall);
 
-/// What hangs over the walls under slopes: covering, board and soffit. Not where neighbours stand.
+/// What hangs over the walls under slopes: covering and soffit. Not where neighbours stand.
 void addEaves(city::BuildingBuilder& builder, std::span<const Ring> rings, std::span<const std::vector<uint8_t>> party,
               const BuiltRoof& roof, double overhang, const PaintLook& covering, const PaintLook& board);
 

@@ -199,8 +199,9 @@ struct Style {
   std::vector<Paint> paints;
   uint32_t house = kNothing;   ///< rule `House`, over the footprint
   uint32_t facade = kNothing;  ///< rule `Facade`, over a wall that comes with its own form
-  uint32_t farPaint = kNothing, plainPaint = kNothing, roofPaint = kNothing;
-  glm::dvec2 bay{2.6, 2.9};  ///< metres of wall that one repeat of the far picture shows
+  uint32_t farPaint = kNothing, plainPaint = kNothing;
+  uint32_t eavesPaint = kNothing;  ///< of what hangs over the walls, from below
+  glm::dvec2 bay{2.6, 2.9};        ///< metres of wall that one repeat of the far picture shows
 };
 
 }  // namespace vicus::facade

@@ -12,6 +12,7 @@
 #include "assets/import/polygon.hpp"
 #include "assets/import/read_elevation.hpp"
 #include "assets/import/source.hpp"
+#include "assets/import/styles_in_use.hpp"
 #include "assets/import/terrain.hpp"
 #include "assets/load_city.hpp"
 #include "city/city.hpp"
@@ -27,6 +28,7 @@ struct Assembly {
   const LoadOptions& options;
   city::Diagnostics& diagnostics;
   std::vector<city::Material> materials;  ///< own ones of the sources; entry i has the number ownMaterial(i)
+  StylesInUse styles;
 };
 
 /// A footprint on its way into the city; positions in metres from the city's origin.
@@ -44,7 +46,7 @@ struct Outline {
 /// heights come from their attributes; says which.
 void footprintsFromFlatSolids(std::vector<Source>& sources, city::Diagnostics& diagnostics);
 
-/// Cleans all footprints, marks the edges that two of them share, and reports what was repaired and what cannot be
+/// Cleans all footprints and reports what was repaired and what cannot be
 /// used.
 std::vector<Outline> cleanFootprints(const std::vector<Source>& sources, glm::dvec3 origin,
                                      city::Diagnostics& diagnostics);

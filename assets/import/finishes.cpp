@@ -29,14 +29,22 @@ bool mentions(std::string_view text, std::initializer_list<std::string_view> wor
                      [&](std::string_view w) { return lower.find(w) != std::string::npos; });
 }
 
+Style withRules(std::string rules, Finish facade, Finish plain) {
+  Style style;
+  style.rules = std::move(rules), style.facade = facade, style.plain = plain;
+  return style;
+}
+
 std::optional<Style> styleOf(std::string_view material) {
   if (mentions(material, {"stone", "pierre", "stein", "piedra", "pietra", "ashlar", "limestone"}))
-    return Style{Finish::FacadeLimestone, mentions(material, {"rubble", "field"}) ? Finish::Rubble : Finish::Ashlar,
-                 Finish::Tile};
+    return withRules("limestone_south", Finish::FacadeLimestone,
+                     mentions(material, {"rubble", "field"}) ? Finish::Rubble : Finish::Ashlar);
   if (mentions(material, {"brick", "brique", "ziegel", "ladrillo", "baksteen", "mattone"}))
-    return Style{Finish::FacadeBrick, Finish::Brick, Finish::Tile};
+    return withRules("dutch_brick", Finish::FacadeBrick, Finish::Brick);
+  if (mentions(material, {"timber", "fachwerk", "colombage", "wood"}))
+    return withRules("timber_frame", Finish::FacadePlaster, Finish::Limewash);
   if (mentions(material, {"plaster", "stucco", "render", "putz", "enduit"}))
-    return Style{Finish::FacadePlaster, Finish::Plaster, Finish::Tile};
+    return withRules("plaster_19th", Finish::FacadePlaster, Finish::Plaster);
   return std::nullopt;
 }
 
@@ -44,13 +52,32 @@ std::optional<Style> styleOf(std::string_view material) {
 
 Style styleFor(std::string_view material, uint32_t variant) {
   if (const auto style = styleOf(material)) return *style;
-  // Five in eight of stone, three rendered: what the historic centres of southern France look like.
-  return variant % 8 < 5 ? Style{Finish::FacadeLimestone, Finish::Ashlar, Finish::Tile}
-                         : Style{Finish::FacadePlaster, Finish::Plaster, Finish::Tile};
+  // Where only surfaces come without rules: five in eight of stone, three rendered, as in southern France.
+  Style style;
+  if (variant % 8 >= 5) style.facade = Finish::FacadePlaster, style.plain = Finish::Plaster;
+  return style;
 }
 
 Style brickStyleFor(std::string_view material) {
-  return styleOf(material).value_or(Style{Finish::FacadeBrick, Finish::Brick, Finish::Tile});
+  return styleOf(material).value_or(withRules("dutch_brick", Finish::FacadeBrick, Finish::Brick));
+}
+
+std::string rulesFor(Finish facade) {
+  switch (facade) {
+    case Finish::FacadeLimestone:
+      return "limestone_south";
+    case Finish::FacadeBrick:
+      return "dutch_brick";
+    case Finish::FacadePlaster:
+    case Finish::FacadePlasterShutters:
+      return "plaster_19th";
+    default:
+      return "bare";
+  }
+}
+
+std::string_view nameOf(Finish finish) {
+  return kNames.at(static_cast<size_t>(finish));
 }
 
 int baysIn(double length) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "city/city.hpp"
@@ -39,11 +40,15 @@ constexpr city::MaterialId id(Finish finish) {
   return static_cast<city::MaterialId>(finish);
 }
 
-/// Walls with windows (one bay of a storey for each repeat), walls without, and roofs.
+/// What a building looks like: the rules that it is built by, and finishes. Finishes that a scene states take the place
+/// of the rules' own.
 struct Style {
-  Finish facade = Finish::FacadePlaster;
-  Finish plain = Finish::Plaster;
+  std::string rules = "limestone_south";    ///< a style of assets/styles, or a file
+  Finish facade = Finish::FacadeLimestone;  ///< walls with windows (one bay of a storey for each repeat), where no
+                                            ///< rules are followed
+  Finish plain = Finish::Ashlar;            ///< walls without
   Finish roof = Finish::Tile;
+  bool plainStated = false, roofStated = false;
 
   bool operator==(const Style&) const = default;
 };
@@ -53,6 +58,10 @@ struct Style {
 Style styleFor(std::string_view material, uint32_t variant);
 /// The same with brick where nothing is said.
 Style brickStyleFor(std::string_view material);
+/// The rules for walls that a scene describes by a finish alone.
+std::string rulesFor(Finish facade);
+/// Name of a finish, which is also the name of its built-in material.
+std::string_view nameOf(Finish finish);
 
 /// Whole bays along a wall of `length` metres, 2.6 m wide each as near as it goes; 0 where it is too short for one.
 int baysIn(double length);

@@ -22,46 +22,71 @@ uint64_t edgeKey(glm::dvec2 a, glm::dvec2 b) {
   return h;
 }
 
-/// Marks the edges that two buildings, or two parts of one, have in common.
-void markSharedEdges(std::vector<Outline>& outlines) {
-  std::vector<std::vector<uint64_t>> keys(outlines.size());
-  parallelFor(outlines.size(), 256, [&](size_t i) {
-    for (const Extrusion::Part& part : outlines[i].parts)
+/// An edge of one part of one building, and how high that stands: metres above the city's origin.
+struct EdgeUse {
+  uint64_t key;
+  uint32_t building, part;
+  double bottom, top;
+};
+
+/// Enters for each edge how high the building stands that shares it, in steps of 0.25 m, so that equal footprints in
+/// equal surroundings remain equal.
+void markNeighbours(std::vector<Extrusion>& extrusions, const std::vector<glm::dvec2>& middles,
+                    const std::vector<double>& bases) {
+  std::vector<std::vector<EdgeUse>> own(extrusions.size());
+  parallelFor(extrusions.size(), 256, [&](size_t i) {
+    for (uint32_t p = 0; p < extrusions[i].parts.size(); ++p) {
+      const Extrusion::Part& part = extrusions[i].parts[p];
       for (const Ring& ring : part.polygon.rings)
-        for (size_t k = 0; k < ring.size(); ++k) keys[i].push_back(edgeKey(ring[k], ring[(k + 1) % ring.size()]));
+        for (size_t k = 0; k < ring.size(); ++k)
+          own[i].push_back({edgeKey(ring[k] + middles[i], ring[(k + 1) % ring.size()] + middles[i]),
+                            static_cast<uint32_t>(i), p, bases[i] + part.bottom, bases[i] + part.height});
+    }
   });
-  std::vector<uint64_t> all;
-  for (const auto& k : keys) all.insert(all.end(), k.begin(), k.end());
-  std::sort(all.begin(), all.end());
-  parallelFor(outlines.size(), 256, [&](size_t i) {
+  std::vector<EdgeUse> all;
+  for (const auto& list : own) all.insert(all.end(), list.begin(), list.end());
+  const auto before = [](const EdgeUse& a, const EdgeUse& b) { return a.key < b.key; };
+  std::sort(all.begin(), all.end(), before);
+  parallelFor(extrusions.size(), 256, [&](size_t i) {
     size_t next = 0;
-    for (Extrusion::Part& part : outlines[i].parts)
+    for (uint32_t p = 0; p < extrusions[i].parts.size(); ++p) {
+      Extrusion::Part& part = extrusions[i].parts[p];
+      part.neighbours.clear();
       for (const Ring& ring : part.polygon.rings) {
-        std::vector<uint8_t>& shared = part.shared.emplace_back();
+        std::vector<double>& heights = part.neighbours.emplace_back();
         for (size_t k = 0; k < ring.size(); ++k) {
-          const auto range = std::equal_range(all.begin(), all.end(), keys[i][next++]);
-          shared.push_back(range.second - range.first > 1 ? 1 : 0);
+          const EdgeUse& self = own[i][next++];
+          double top = -INFINITY;
+          const auto range = std::equal_range(all.begin(), all.end(), self, before);
+          for (auto use = range.first; use != range.second; ++use) {
+            const bool same = use->building == self.building && use->part == self.part;
+            // What hangs higher than this part begins leaves it open below.
+            if (!same && use->bottom <= self.bottom + 0.5) top = std::max(top, use->top);
+          }
+          constexpr double kStep = 0.25;
+          heights.push_back(std::isfinite(top) ? std::floor((top - bases[i]) / kStep) * kStep : top);
         }
       }
+    }
   });
 }
 
 /// Everything that decides a geometry, as bytes: equal where the geometries are.
 std::string keyOf(const Extrusion& e) {
-  std::string key;
+  std::string key = e.use + '\n' + e.material + '\n' + e.roof + '\n';
   const auto add = [&key](const auto& value) {
     char bytes[sizeof value];
     std::memcpy(bytes, &value, sizeof value);
     key.append(bytes, sizeof value);
   };
-  add(e.foundation), add(e.pitch), add(e.style.facade), add(e.style.plain), add(e.style.roof);
+  add(e.foundation), add(e.seed), add(e.style), add(e.year);
   for (const Extrusion::Part& part : e.parts) {
     add(part.height), add(part.bottom), add(part.roof), add(part.roofHeight);
     add(part.polygon.rings.size());
     for (size_t r = 0; r < part.polygon.rings.size(); ++r) {
       add(part.polygon.rings[r].size());
       for (const glm::dvec2& p : part.polygon.rings[r]) add(p.x), add(p.y);
-      key.append(part.shared[r].begin(), part.shared[r].end());
+      for (const double height : part.neighbours[r]) add(height);
     }
   }
   return key;
@@ -93,8 +118,7 @@ void cleanOne(Outline& o, glm::dvec3 origin) {
       if (!(raw.height > 0) && raw.top > 0) {
         constexpr double kLeastWall = 0.3;  // share of the height
         const double free = raw.top - part.bottom;
-        if (!(part.roofHeight > 0))
-          part.roofHeight = roofRise(part.polygon, roofFormOf(part.polygon, raw.roof), glm::radians(28.0));
+        if (!(part.roofHeight > 0)) part.roofHeight = roofRise(part.polygon, raw.roof, glm::radians(28.0));
         part.roofHeight = std::min(part.roofHeight, (1 - kLeastWall) * free);
         part.height = raw.top - part.roofHeight;
       }
@@ -163,11 +187,14 @@ Extrusion extrusionOf(Outline& o, glm::dvec2 middle, const std::optional<city::H
   const double lowest = o.under.known ? o.under.lowest : base;
   // In steps of 0.25 m, so that equal footprints on nearly level ground remain equal.
   e.foundation = std::ceil(std::max(0.5, base - lowest + 0.3) * 4) / 4;
-  e.pitch = glm::radians(25.0 + 5.0 * variant / 7.0);
   const city::Attributes& attributes = o.footprint->attributes;
-  e.style =
-      styled(styleFor(attribute(attributes, {"material", "material.value", "building:material", "materiau"}), variant),
-             o.source->styles, attributes);
+  e.seed = variant;
+  e.material = attribute(attributes, {"material", "material.value", "building:material", "materiau"});
+  e.use = attribute(attributes, {"use", "usage", "building", "function", "NATURE", "nature", "USAGE1"});
+  e.roof = attribute(attributes, {"roof", "roof.value", "roof:shape", "roofType"});
+  const std::string_view year =
+      attribute(attributes, {"year", "start_date", "yearOfConstruction", "annee_construction"});
+  e.year = numberIn(year) > 0 ? numberIn(year) : 0;
   e.parts = std::move(o.parts);
   const double height = o.footprint->height > 0 ? o.footprint->height : o.source->defaultHeight;
   for (Extrusion::Part& p : e.parts) {
@@ -235,7 +262,6 @@ std::vector<Outline> cleanFootprints(const std::vector<Source>& sources, glm::dv
   parallelFor(outlines.size(), 64, [&](size_t i) { cleanOne(outlines[i], origin); });
   reportCleaning(sources, outlines, diagnostics);
   std::erase_if(outlines, [](const Outline& o) { return o.parts.empty(); });
-  markSharedEdges(outlines);
   return outlines;
 }
 
@@ -247,8 +273,13 @@ void addFootprints(Assembly& a, std::vector<Outline>& outlines) {
   parallelFor(outlines.size(), 64, [&](size_t i) {
     middles[i] = middleOf(outlines[i]);
     extrusions[i] = extrusionOf(outlines[i], middles[i], a.city.terrain, bases[i]);
-    keys[i] = keyOf(extrusions[i]);
   });
+  for (size_t i = 0; i < outlines.size(); ++i) {
+    const Style style = styleFor(extrusions[i].material, extrusions[i].seed);
+    extrusions[i].style = a.styles.use(a, styled(style, outlines[i].source->styles, outlines[i].footprint->attributes));
+  }
+  markNeighbours(extrusions, middles, bases);
+  parallelFor(outlines.size(), 64, [&](size_t i) { keys[i] = keyOf(extrusions[i]); });
 
   // One geometry for each distinct footprint.
   std::unordered_map<std::string_view, uint32_t> typeOf;
@@ -259,17 +290,24 @@ void addFootprints(Assembly& a, std::vector<Outline>& outlines) {
     if (isNew) firstWith.push_back(i);
     geometry[i] = found->second;
   }
-  std::vector<std::optional<city::BuildingGeometry>> built(firstWith.size());
+  std::vector<city::BuildingGeometry> built(firstWith.size());
+  std::vector<facade::Derivation> derived(firstWith.size());
   parallelFor(built.size(), 32, [&](size_t t) {
-    const size_t i = firstWith[t];
-    built[t] = extrude(extrusions[i], outlines[i].footprint->id);
+    const Extrusion& e = extrusions[firstWith[t]];
+    built[t] = extrude(e, a.styles.list()[e.style], outlines[firstWith[t]].footprint->id, derived[t]);
   });
+  facade::Derivation made;
+  for (const facade::Derivation& d : derived) made += d;
+  if (made.cutShort > 0)
+    a.diagnostics.warn("styles", "",
+                       "rules were not followed to their end " + std::to_string(made.cutShort) +
+                           " times, because they called each other too often or too deep");
 
   std::vector<uint32_t> number(built.size(), city::kNone);
   for (size_t t = 0; t < built.size(); ++t) {
-    if (!built[t]) continue;
+    if (built[t].fullDetail.count == 0) continue;
     number[t] = static_cast<uint32_t>(a.city.buildingTypes.size());
-    a.city.buildingTypes.push_back(std::move(*built[t]));
+    a.city.buildingTypes.push_back(std::move(built[t]));
   }
   std::vector<std::string> withoutHeight;
   const Source* source = nullptr;
@@ -290,8 +328,8 @@ void addFootprints(Assembly& a, std::vector<Outline>& outlines) {
     if (source != o.source) finishFile();
     source = o.source;
     if (number[geometry[i]] == city::kNone) {
-      a.diagnostics.warn(source->file, f.id, "left out: its roof could not be cut into triangles");
-      a.diagnostics.leftOut.push_back({"building " + f.id, 1, "its roof could not be cut into triangles"});
+      a.diagnostics.warn(source->file, f.id, "left out: its style gives it no surfaces");
+      a.diagnostics.leftOut.push_back({"building " + f.id, 1, "its style gives it no surfaces"});
       continue;
     }
     const bool partsKnow =

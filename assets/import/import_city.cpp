@@ -35,7 +35,7 @@ city::Aabb planOf(const std::vector<Source>& sources, const std::vector<Outline>
 std::optional<city::City> assembleCity(std::vector<Source> sources, std::span<const ElevationRaster> rasters,
                                        const AssemblyRequest& request, const LoadOptions& options,
                                        GdalMessages& messages, city::Diagnostics& diagnostics) {
-  Assembly a{{}, {}, options, diagnostics, {}};
+  Assembly a{{}, {}, options, diagnostics, {}, {}};
   report(options, "coordinates", 0);
   for (Source& s : sources) dropNonFinite(s, diagnostics);
   const std::string crs = chooseCrs(sources, rasters, request.crs, request.fallbackCrs, diagnostics);

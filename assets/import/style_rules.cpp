@@ -33,9 +33,10 @@ Style styled(Style style, const std::vector<StyleRule>& rules, const city::Attri
     if (!std::all_of(rule.where.begin(), rule.where.end(),
                      [&](const StyleCondition& c) { return holds(c, attributes); }))
       continue;
-    if (rule.facade) style.facade = *rule.facade;
-    if (rule.plain) style.plain = *rule.plain;
-    if (rule.roof) style.roof = *rule.roof;
+    if (rule.facade) style.facade = *rule.facade, style.rules = rulesFor(*rule.facade);
+    if (!rule.rules.empty()) style.rules = rule.rules;
+    if (rule.plain) style.plain = *rule.plain, style.plainStated = true;
+    if (rule.roof) style.roof = *rule.roof, style.roofStated = true;
     break;
   }
   return style;

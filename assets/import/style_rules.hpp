@@ -21,9 +21,10 @@ struct StyleCondition {
   bool operator==(const StyleCondition&) const = default;
 };
 
-/// What buildings are finished with for which all conditions hold; finishes that are not named stay as they were.
+/// What buildings are finished with for which all conditions hold; what is not named stays as it was.
 struct StyleRule {
   std::vector<StyleCondition> where;
+  std::string rules;  ///< a style by name, or a file of rules; empty: as it was, or what `facade` stands for
   std::optional<Finish> facade, plain, roof;
 
   bool operator==(const StyleRule&) const = default;

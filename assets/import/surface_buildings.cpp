@@ -26,6 +26,17 @@ void addSurfaceBuildings(Assembly& a, const std::vector<Source>& sources) {
     const std::vector<city::MaterialId> materials = addMaterials(a, s);
     std::vector<uint8_t> mayHaveHoles;
     for (const SourceMaterial& m : s.materials) mayHaveHoles.push_back(mayBeTransparent(m) ? 1 : 0);
+    std::vector<Style> styles(count);
+    std::vector<size_t> rules(count);
+    for (size_t i = 0; i < count; ++i) {
+      const city::Attributes& attributes = s.buildings[i].attributes;
+      const std::string_view material = attribute(attributes, {"material", "material.value"});
+      // The cities that come as surfaces alone are mostly of brick; beside footprints a building looks like those.
+      const Style usual =
+          s.footprints.empty() ? brickStyleFor(material) : styleFor(material, seedOf(s.buildings[i].id) % 8);
+      styles[i] = styled(usual, s.styles, attributes);
+      rules[i] = a.styles.use(a, styles[i]);
+    }
     std::vector<std::optional<city::BuildingGeometry>> built(count);
     std::vector<SurfaceReport> reports(count);
     std::vector<glm::dvec3> positions(count);
@@ -42,11 +53,8 @@ void addSurfaceBuildings(Assembly& a, const std::vector<Source>& sources) {
       for (glm::dvec3& p : local.points) p -= position;
       positions[i] = position;
       SurfaceOptions options;
-      const std::string_view material = attribute(s.buildings[i].attributes, {"material", "material.value"});
-      // The cities that come as surfaces alone are mostly of brick; beside footprints a building looks like those.
-      options.style =
-          s.footprints.empty() ? brickStyleFor(material) : styleFor(material, seedOf(s.buildings[i].id) % 8);
-      options.style = styled(options.style, s.styles, s.buildings[i].attributes);
+      options.style = styles[i], options.rules = &a.styles.list()[rules[i]];
+      options.facts.seed = seedOf(s.buildings[i].id), options.facts.height = box.size().z;
       options.materials = materials, options.mayHaveHoles = mayHaveHoles;
       if (a.city.terrain)
         options.groundAt = [&](glm::dvec2 p) {

@@ -152,7 +152,10 @@ class SurfaceBuilder {
  public:
   SurfaceBuilder(city::BuildingBuilder& builder, const std::vector<glm::dvec3>& points, const SurfaceOptions& options,
                  SurfaceReport& report, double lowest)
-      : builder_(builder), points_(points), options_(options), report_(report), lowest_(lowest) {}
+      : builder_(builder), points_(points), options_(options), report_(report), lowest_(lowest) {
+    if (options.rules && options.rules->style->facade != facade::kNothing)
+      house_.emplace(*options.rules->style, options.facts, options.rules->parameters);
+  }
 
   void add(const Face& face);
   bool any() const { return any_; }
@@ -161,6 +164,7 @@ class SurfaceBuilder {
 
  private:
   double facadeFoot(const Face& face, const Span& span) const;
+  facade::WallDetail detailOf(const Face& face, const Axes& axes, const facade::WallFrame& frame);
   void addSkirt(const Face& face, const Axes& axes, bool wallHides);
 
   city::BuildingBuilder& builder_;
@@ -168,6 +172,11 @@ class SurfaceBuilder {
   const SurfaceOptions& options_;
   SurfaceReport& report_;
   double lowest_;
+  std::optional<facade::StyledHouse> house_;
+  facade::Derivation made_;
+  uint32_t walls_ = 0;
+  bool hasFlat_ = false;  ///< the wall being added has a surface for far away
+  city::MaterialId wallMaterial_ = id(Finish::Plaster);  ///< of the wall being added
   bool any_ = false;
   double gapSum_ = 0;
   int gaps_ = 0;
@@ -209,11 +218,25 @@ void SurfaceBuilder::add(const Face& face) {
     default:
       break;
   }
-  std::vector<glm::vec3> positions;
-  std::vector<glm::vec2> uvs;
-  const double foot = bays > 0 ? facadeFoot(face, span) : span.bottom, storeys = storeysIn(span.top - foot);
   const bool painted = face.material < options_.materials.size();
-  const city::MaterialId material = painted ? options_.materials[face.material] : id(finish);
+  const bool byRules = face.kind == SurfaceKind::Wall && face.material == kNoMaterial && house_ &&
+                       std::abs(face.normal.z) < 0.1 && !face.bothSides && span.height() >= kSmallestFacadeHeight;
+  const double foot = bays > 0 || byRules ? facadeFoot(face, span) : span.bottom, storeys = storeysIn(span.top - foot);
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec2> uvs, farUvs;
+  facade::WallFrame frame;
+  facade::WallDetail detail;
+  city::MaterialId material = painted ? options_.materials[face.material] : id(finish);
+  if (byRules) {
+    const glm::dvec3& p = points_[face.rings[0][0]];
+    frame.origin = p + axes.u * (span.left - glm::dot(p, axes.u)), frame.origin.z = foot;
+    frame.along = axes.u, frame.width = span.width(), frame.height = span.top - foot;
+    detail = detailOf(face, axes, frame);
+    const facade::Style& rules = *options_.rules->style;
+    material = options_.rules->looks[detail.fills.empty() ? rules.plainPaint : detail.fills[0].paint].material;
+  }
+  hasFlat_ = false;
+  wallMaterial_ = byRules ? material : id(options_.style.plain);
   for (size_t i = 0; i < mesh.positions.size(); ++i) {
     const glm::dvec3& p = mesh.positions[i];
     positions.emplace_back(p);
@@ -222,14 +245,26 @@ void SurfaceBuilder::add(const Face& face) {
       continue;
     }
     const double u = glm::dot(p, axes.u), v = glm::dot(p, axes.v);
-    uvs.push_back(bays > 0
-                      ? glm::vec2((u - span.left) / span.width() * bays, (p.z - foot) / (span.top - foot) * storeys)
-                      : glm::vec2(u, plane == PlaneKind::Wall ? p.z : v));
+    const glm::vec2 inBays((u - span.left) / span.width() * std::max(bays, 1),
+                           (p.z - foot) / (span.top - foot) * storeys);
+    farUvs.push_back(inBays);
+    uvs.push_back(bays > 0 && !byRules ? inBays : glm::vec2(u, plane == PlaneKind::Wall ? p.z : v));
   }
   const bool opening = face.kind == SurfaceKind::Window || face.kind == SurfaceKind::Door;
   const bool seeThrough = opening || (painted && options_.mayHaveHoles[face.material] != 0);
   builder_.beginPlane(plane, material, glm::vec3(face.normal), !seeThrough);
   builder_.addTriangles(positions, uvs, mesh.triangles, glm::vec3(face.normal), material);
+  if (byRules && !detail.attachments.empty()) {
+    for (const facade::Attachment& a : detail.attachments)
+      facade::addShape(builder_, frame, a, options_.rules->looks, options_.rules->style->plainPaint);
+    if (const uint32_t far = options_.rules->style->farPaint; bays > 0 && far != facade::kNothing) {
+      hasFlat_ = true;
+      builder_.beginFlat();
+      builder_.addTriangles(positions, farUvs, mesh.triangles, glm::vec3(face.normal),
+                            options_.rules->looks[far].material);
+    }
+    builder_.beginCut();
+  }
   if (face.bothSides) {
     std::vector<uint32_t> back(mesh.triangles);
     for (size_t t = 0; t + 2 < back.size(); t += 3) std::swap(back[t + 1], back[t + 2]);
@@ -242,6 +277,36 @@ void SurfaceBuilder::add(const Face& face) {
     if (line) builder_.addOccluder(*line);
     if (options_.groundAt) addSkirt(face, axes, line.has_value());
   }
+}
+
+/// What the rules make of a wall: the shapes that lie within its outline. Holes are not cut into walls that come with
+/// their own form, so openings become pictures.
+facade::WallDetail SurfaceBuilder::detailOf(const Face& face, const Axes& axes, const facade::WallFrame& frame) {
+  // Which wall looks at a street is not known: every one that stands on the ground may have the door.
+  const bool onTheGround = frame.origin.z < lowest_ + kLongestSkirt;
+  facade::WallDetail detail = facade::deriveWall(*house_, options_.rules->style->facade, frame.width, frame.height,
+                                                 onTheGround ? 0 : 5, options_.facts.seed + walls_++, made_);
+  std::vector<Ring> outline;
+  for (const auto& ring : face.rings) {
+    Ring& line = outline.emplace_back();
+    for (const uint32_t i : ring)
+      line.emplace_back(glm::dot(points_[i] - frame.origin, axes.u), points_[i].z - frame.origin.z);
+  }
+  std::erase_if(detail.attachments, [&](const facade::Attachment& a) {
+    constexpr double kEdge = 0.01;  // shapes may touch the wall's edges
+    const double left = a.rect.left + kEdge, bottom = a.rect.bottom + kEdge, right = a.rect.right - kEdge,
+                 top = a.rect.top - kEdge;
+    for (const glm::dvec2 corner : {glm::dvec2(left, bottom), {right, bottom}, {right, top}, {left, top}})
+      for (size_t r = 0; r < outline.size(); ++r)
+        if (insideRing(outline[r], corner) != (r == 0)) return true;
+    for (const Ring& ring : outline)
+      for (const glm::dvec2& p : ring)
+        if (p.x > left && p.x < right && p.y > bottom && p.y < top) return true;
+    return false;
+  });
+  for (facade::Attachment& a : detail.attachments)
+    if (a.shape == facade::Shape::Opening) a.shape = facade::Shape::Panel, a.depth = 0.02;
+  return detail;
 }
 
 /// Where the lowest storey of a wall begins: at its foot, or where the ground stands higher against it, there, so that
@@ -285,8 +350,13 @@ void SurfaceBuilder::addSkirt(const Face& face, const Axes& axes, bool wallHides
     if (gap < -kSkirtDepth || (gap > kLongestSkirt && !onTheGround)) continue;
     const double bottom = ground - kSkirtDepth;
     const auto lowered = [&](const glm::dvec3& p) { return glm::vec3(glm::dvec3(glm::dvec2(p), bottom)); };
-    builder_.addQuad(lowered(a), lowered(b), glm::vec3(b), glm::vec3(a), id(options_.style.plain));
-    if (face.bothSides) builder_.addQuad(lowered(b), lowered(a), glm::vec3(a), glm::vec3(b), id(options_.style.plain));
+    builder_.addQuad(lowered(a), lowered(b), glm::vec3(b), glm::vec3(a), wallMaterial_);
+    if (hasFlat_) {
+      builder_.beginFlat();
+      builder_.addQuad(lowered(a), lowered(b), glm::vec3(b), glm::vec3(a), wallMaterial_);
+      builder_.beginCut();
+    }
+    if (face.bothSides) builder_.addQuad(lowered(b), lowered(a), glm::vec3(a), glm::vec3(b), wallMaterial_);
     if (wallHides)
       builder_.addOccluder(
           {glm::vec2(a), glm::vec2(b), static_cast<float>(bottom), static_cast<float>(std::max(a.z, b.z))});

@@ -9,6 +9,7 @@
 #include "assets/import/finishes.hpp"
 #include "assets/import/source.hpp"
 #include "city/building_geometry.hpp"
+#include "facade/house.hpp"
 
 namespace vicus::assets {
 
@@ -26,6 +27,9 @@ struct SurfaceReport {
 
 struct SurfaceOptions {
   Style style;
+  /// The rules whose `Facade` upright walls without pictures of their own get; nullptr: none.
+  const facade::StyleInUse* rules = nullptr;
+  facade::HouseFacts facts;                 ///< what is known of the building
   std::vector<city::MaterialId> materials;  ///< the city's number of each of the source's materials
   std::vector<uint8_t> mayHaveHoles;        ///< for each of them: 1 where its picture may be transparent
   /// Height of the ground under a point of the building's frame, in the same frame; may be empty, may give NaN.

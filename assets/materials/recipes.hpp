@@ -59,6 +59,18 @@ Image leavesDark();
 Image iron();
 Image wool();
 
+// One opening from jamb to jamb and from sill to head.
+Image windowCasement();
+Image windowFramed();
+Image windowShuttered();
+Image windowSashFramed();
+Image windowSash();
+Image windowLeaded();
+Image windowArched();
+Image doorPanelled();
+Image doorArched();
+Image shopFront();
+
 // One bay of one storey with a window.
 Image facadeLimestone();
 Image facadePlaster();

@@ -213,6 +213,7 @@ void readStyles(Table& table, std::vector<StyleRule>& out) {
       c.atLeast = w.number("at_least");
       c.below = w.number("below");
     });
+    t.text("rules", rule.rules);
     readFinish(t, "facade", rule.facade);
     readFinish(t, "walls", rule.plain);
     readFinish(t, "roof", rule.roof);

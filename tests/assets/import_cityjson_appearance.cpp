@@ -101,7 +101,7 @@ TEST(CityJsonAppearance, TemplatesStandAtTheirReferencePoints) {
   const glm::dvec3 apart = r.city->buildings.instances[1].position - r.city->buildings.instances[0].position;
   EXPECT_NEAR(std::abs(apart.x), 50, 1e-6);
   for (const city::BuildingGeometry& g : r.city->buildingTypes)
-    EXPECT_NEAR(g.bounds.max.x - g.bounds.min.x, 20, 1e-3) << "stretched twofold by its matrix";
+    EXPECT_NEAR(boundsOfSurfaces(g).size().x, 20, 1e-3) << "stretched twofold by its matrix";
 }
 
 TEST(CityJsonAppearance, TheWantedLevelOfDetail) {

@@ -64,16 +64,39 @@ inline std::string messagesOf(const city::Diagnostics& d) {
   return out;
 }
 
+/// Calls `visit(first index)` for each triangle of walls, roofs and what goes into them; what sticks out closes
+/// nothing.
+template <class F>
+void forEachClosingTriangle(const city::BuildingGeometry& g, F&& visit) {
+  const auto over = [&](city::Range range) {
+    for (uint32_t i = range.first; i + 2 < range.end(); i += 3) visit(i);
+  };
+  for (const city::Plane& plane : g.planes) {
+    over(plane.cut);
+    for (uint32_t i = plane.externalOpenings.first; i < plane.externalOpenings.end(); ++i)
+      over(g.externalOpenings[i].indices);
+  }
+}
+
 /// Volume under a building's surfaces above `floor`, m³: right where they are wound outward and close all but the
 /// floor.
 inline double volumeAbove(const city::BuildingGeometry& g, double floor) {
   double volume = 0;
-  for (uint32_t i = 0; i + 2 < g.fullDetail.count; i += 3) {
+  forEachClosingTriangle(g, [&](uint32_t i) {
     glm::dvec3 p[3];
     for (uint32_t k = 0; k < 3; ++k) p[k] = glm::dvec3(g.vertices[g.indices[i + k]].position) - glm::dvec3(0, 0, floor);
     volume += glm::dot(p[0], glm::cross(p[1], p[2])) / 6;
-  }
+  });
   return volume;
+}
+
+/// Bounds of walls and roofs without what sticks out of them.
+inline city::Aabbf boundsOfSurfaces(const city::BuildingGeometry& g) {
+  city::Aabbf box;
+  forEachClosingTriangle(g, [&](uint32_t i) {
+    for (uint32_t k = 0; k < 3; ++k) box.extend(g.vertices[g.indices[i + k]].position);
+  });
+  return box;
 }
 
 /// Area of all planes of a kind, m².

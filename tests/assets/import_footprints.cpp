@@ -35,6 +35,13 @@ LoadResult loadFeatures(const std::vector<std::string>& features, const LoadOpti
   return load(folder.write("town.geojson", geoJson(features)), options);
 }
 
+/// The same with bare walls and roofs without eaves, whose areas are known.
+LoadResult loadBare(const std::vector<std::string>& features) {
+  const TemporaryFolder folder;
+  folder.write("town.geojson", geoJson(features));
+  return load(folder.write("town.toml", "[[sources]]\nfile = \"town.geojson\"\n[[styles]]\nrules = \"bare\"\n"));
+}
+
 const BuildingGeometry& onlyBuilding(const LoadResult& r) {
   EXPECT_TRUE(r.city) << messagesOf(r.diagnostics);
   EXPECT_EQ(r.city->buildingTypes.size(), 1u) << messagesOf(r.diagnostics);
@@ -46,7 +53,7 @@ const std::vector<glm::dvec2> kHole{{2, 2}, {5, 2}, {5, 5}, {2, 5}};
 constexpr double kLArea = 20 * 8 + 8 * 12, kHoleArea = 9;
 
 TEST(Footprints, LShapeWithCourtyardHasItsAreaAndVolume) {
-  const LoadResult r = loadFeatures({feature("Polygon", polygon({kL, kHole}), R"({"height": 10})")});
+  const LoadResult r = loadBare({feature("Polygon", polygon({kL, kHole}), R"({"height": 10})")});
   const BuildingGeometry& g = onlyBuilding(r);
   const double foundation = 0.5;  // the least that walls reach below the ground
   EXPECT_NEAR(planAreaOf(g, PlaneKind::Roof), kLArea - kHoleArea, 1e-2);
@@ -61,11 +68,11 @@ TEST(Footprints, LShapeWithCourtyardHasItsAreaAndVolume) {
 }
 
 TEST(Footprints, WindingOfTheFileDoesNotMatter) {
-  const LoadResult there = loadFeatures({feature("Polygon", polygon({kL, kHole}), R"({"height": 10})")});
+  const LoadResult there = loadBare({feature("Polygon", polygon({kL, kHole}), R"({"height": 10})")});
   std::vector<glm::dvec2> l = kL, hole = kHole;
   std::reverse(l.begin(), l.end());
   std::reverse(hole.begin(), hole.end());
-  const LoadResult back = loadFeatures({feature("Polygon", polygon({l, hole}), R"({"height": 10})")});
+  const LoadResult back = loadBare({feature("Polygon", polygon({l, hole}), R"({"height": 10})")});
   EXPECT_NEAR(volumeAbove(onlyBuilding(there), 0), volumeAbove(onlyBuilding(back), 0), 1e-3);
   EXPECT_TRUE(windingAgreesWithNormals(onlyBuilding(back)));
 }
@@ -79,7 +86,7 @@ TEST(Footprints, PointsInLineAndRepeatedOnesMakeNoWallsOfTheirOwn) {
 
 TEST(Footprints, RectangleGetsAGableRoofAlongItsLongSide) {
   const LoadResult r =
-      loadFeatures({feature("Polygon", polygon({{{0, 0}, {20, 0}, {20, 8}, {0, 8}}}), R"({"height": 6})")});
+      loadBare({feature("Polygon", polygon({{{0, 0}, {20, 0}, {20, 8}, {0, 8}}}), R"({"height": 6})")});
   const BuildingGeometry& g = onlyBuilding(r);
   int roofs = 0, gables = 0;
   float ridge = 0;
@@ -113,25 +120,18 @@ TEST(Footprints, RidgesOfATerraceRunAlongTheStreet) {
 
 TEST(Footprints, RoofsOfLargeHallsStayLow) {
   const LoadResult r =
-      loadFeatures({feature("Polygon", polygon({{{0, 0}, {80, 0}, {80, 60}, {0, 60}}}), R"({"height": 6})")});
-  EXPECT_NEAR(onlyBuilding(r).bounds.max.z, 6 + kHighestRoof, 1e-3);
+      loadBare({feature("Polygon", polygon({{{0, 0}, {80, 0}, {80, 60}, {0, 60}}}), R"({"height": 6})")});
+  EXPECT_NEAR(onlyBuilding(r).bounds.max.z, 6 + facade::kHighestRoof, 1e-3);
 }
 
 TEST(Footprints, HexagonGetsAPyramidOfItsOwnVolume) {
   std::vector<glm::dvec2> hexagon;
   for (int i = 0; i < 6; ++i) hexagon.emplace_back(5 * std::cos(i * M_PI / 3), 5 * std::sin(i * M_PI / 3));
-  const LoadResult r = loadFeatures({feature("Polygon", polygon({hexagon}), R"({"height": 6})")});
+  const LoadResult r = loadBare({feature("Polygon", polygon({hexagon}), R"({"height": 6})")});
   const BuildingGeometry& g = onlyBuilding(r);
   const double base = 1.5 * std::sqrt(3.0) * 25, rise = static_cast<double>(g.bounds.max.z) - 6;
   EXPECT_GT(rise, 1.5);
   EXPECT_NEAR(volumeAbove(g, -0.5), base * 6.5 + base * rise / 3, 0.2);
-}
-
-TEST(Footprints, RoofShapes) {
-  EXPECT_EQ(roofFormOf({{{{0, 0}, {9, 0}, {9, 5}, {0, 5}}}}), RoofForm::Gable);
-  EXPECT_EQ(roofFormOf({{{{0, 0}, {9, 0}, {4, 5}}}}), RoofForm::Hip);
-  EXPECT_EQ(roofFormOf({{{{0, 0}, {9, 0}, {5, 1}, {4, 1}}}}), RoofForm::Hip) << "no angle near a right one";
-  EXPECT_EQ(roofFormOf({{kL}}), RoofForm::Hip);
 }
 
 TEST(Footprints, BowTieIsRepairedAndNamed) {
@@ -195,19 +195,26 @@ TEST(Footprints, EqualFootprintsShareOneGeometry) {
   EXPECT_LE(r.city->buildingTypes.size(), 8u) << "at most eight variants of a type";
 }
 
-TEST(Footprints, NeighboursTurnBlankWallsToEachOther) {
+TEST(Footprints, BetweenNeighboursOnlyTheHigherWallShows) {
   const LoadResult r =
-      loadFeatures({feature("Polygon", polygon({{{0, 0}, {10, 0}, {10, 8}, {0, 8}}}), R"({"height": 9})"),
-                    feature("Polygon", polygon({{{10, 0}, {20, 0}, {20, 8}, {10, 8}}}), R"({"height": 9})")});
-  int withWindows = 0, blank = 0;
-  for (const BuildingGeometry& g : r.city->buildingTypes)
+      loadFeatures({feature("Polygon", polygon({{{0, 0}, {10, 0}, {10, 8}, {0, 8}}}), R"({"height": 12})"),
+                    feature("Polygon", polygon({{{10, 0}, {20, 0}, {20, 8}, {10, 8}}}), R"({"height": 8})")});
+  ASSERT_EQ(r.city->buildingTypes.size(), 2u);
+  for (const BuildingGeometry& g : r.city->buildingTypes) {
+    const bool higher = g.name == "feature 0";
+    int walls = 0, party = 0;
     for (const city::Plane& p : g.planes) {
       if (p.kind != PlaneKind::Wall) continue;
-      const bool facade = r.city->materials[p.baseTexture].source.find("facade-") != std::string::npos;
-      facade ? ++withWindows : ++blank;
+      ++walls;
+      if (p.normal.x * (higher ? 1.0f : -1.0f) < 0.9f) continue;
+      ++party;
+      EXPECT_EQ(p.externalGeometry.count + p.externalOpenings.count, 0u) << "no windows between neighbours";
+      for (uint32_t i = p.cut.first; i < p.cut.end(); ++i)
+        EXPECT_GT(g.vertices[g.indices[i]].position.z, 8 - 0.31f - 0.25f);
     }
-  EXPECT_EQ(withWindows, 6);
-  EXPECT_EQ(blank, 2);
+    EXPECT_EQ(walls, higher ? 4 : 3);
+    EXPECT_EQ(party, higher ? 1 : 0);
+  }
 }
 
 TEST(Footprints, AttributesStay) {
@@ -247,7 +254,7 @@ TEST(Footprints, DegreesBecomeTheUtmZoneOfTheirCentre) {
           "coordinates":[[[3.0,45.0],[3.001,45.0],[3.001,45.001],[3.0,45.001],[3.0,45.0]]]}}]})"));
   ASSERT_TRUE(r.city) << messagesOf(r.diagnostics);
   EXPECT_EQ(r.city->crs, "EPSG:32631");
-  const glm::vec3 size = r.city->buildingTypes[0].bounds.size();
+  const glm::vec3 size = boundsOfSurfaces(r.city->buildingTypes[0]).size();
   EXPECT_NEAR(size.y, 111.1, 0.2);
   EXPECT_NEAR(size.x, 78.8, 0.2);
 }

@@ -72,7 +72,7 @@ TEST(OpenStreetMap, HeightsRoofsAndPartsFollowTheMapsRules) {
   ASSERT_TRUE(r.city) << messagesOf(r.diagnostics);
   ASSERT_EQ(r.city->buildings.size(), 4u) << messagesOf(r.diagnostics);
   std::vector<float> tops;
-  for (const city::BuildingGeometry& g : r.city->buildingTypes) tops.push_back(g.height);
+  for (const city::BuildingGeometry& g : r.city->buildingTypes) tops.push_back(boundsOfSurfaces(g).max.z);
   std::sort(tops.begin(), tops.end());
   EXPECT_NEAR(tops[0], 10, 1e-3) << "the pyramid's tip, not its eaves";
   EXPECT_NEAR(tops[1], 12, 1e-3);

@@ -114,7 +114,7 @@ TEST(Rules, EqualPaintsAreOne) {
   const Style style = accepted(
       "Facade => Layer(SampleTexture(brick, Rep, (0,0,2,2)), SampleTexture(brick, Fit, (0,0,1,1)), "
       "SampleTexture(brick, Fit, (0,0,1,1), (0.5, 0.5, 0.5)), SetColor(1, 0, 0))");
-  EXPECT_EQ(style.paints.size(), 3u);
+  EXPECT_EQ(style.paints.size(), 4u) << "brick, its tint, red, and the plaster of what no rule paints";
 }
 
 TEST(Rules, EveryOperatorHasASentence) {
