@@ -2,7 +2,8 @@
 """Seconds until the city is loaded and from the start of the program to the end of its first frame of 1280 x 720, and peak
 memory, cold (neither Vicus nor the driver has anything in its cache) and cached.
 
-Usage: measure_loading.py VICUS SCENE… ; prints a Markdown table, medians of three runs that take turns.
+Usage: measure_loading.py VICUS [--rounds N] SCENE… ; prints a Markdown table, medians of three rounds in which the scenes
+take turns.
 """
 import json
 import os
@@ -26,10 +27,12 @@ def run(vicus, scene, cache):
 
 
 def main():
-    vicus, scenes = sys.argv[1], sys.argv[2:]
+    vicus, scenes, rounds = sys.argv[1], sys.argv[2:], ROUNDS
+    if scenes[:1] == ["--rounds"]:
+        rounds, scenes = int(scenes[1]), scenes[2:]
     cold = {scene: [] for scene in scenes}
     cached = {scene: [] for scene in scenes}
-    for _ in range(ROUNDS):
+    for _ in range(rounds):
         for scene in scenes:
             with tempfile.TemporaryDirectory() as cache:
                 cold[scene].append(run(vicus, scene, cache))
