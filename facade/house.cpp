@@ -156,8 +156,10 @@ class Builder {
           by[e] = distance;
       for (size_t i = 0; i < n; ++i) moved.rings[r][i] = movedCorner(ring, by, i);
       for (size_t i = 0; i < n; ++i) {
-        const dvec2 before = ring[(i + 1) % n] - ring[i], after = moved.rings[r][(i + 1) % n] - moved.rings[r][i];
-        if (!(glm::dot(before, after) > 0.05 * glm::dot(before, before)))
+        const dvec2 a = ring[i], b = ring[(i + 1) % n], c = moved.rings[r][(i + 1) % n], d = moved.rings[r][i];
+        // Neither may the wall turn round nor the strip between it and its old place twist.
+        const bool twisted = cross(b - a, c - a) * cross(c - a, d - a) < 0;
+        if (twisted || !(glm::dot(b - a, c - d) > 0.05 * glm::dot(b - a, b - a)))
           return apply(o.rules[0], volume, index, 1, hash32(seed, 1), depth + 1);
       }
     }

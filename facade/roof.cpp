@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "facade/hip_roof.hpp"
+#include "facade/triangulate.hpp"
 
 namespace vicus::facade {
 namespace {
@@ -68,6 +69,14 @@ std::vector<dvec3> band(const std::vector<dvec3>& polygon, double low, double hi
   return clip(clip(polygon, low, 1), high, -1);
 }
 
+bool isConvex(const Ring& ring) {
+  for (size_t i = 0; i < ring.size(); ++i) {
+    const dvec2 a = ring[i], b = ring[(i + 1) % ring.size()], c = ring[(i + 2) % ring.size()];
+    if (!(cross(b - a, c - b) > 0)) return false;
+  }
+  return ring.size() >= 3;
+}
+
 /// Slopes by the profile over the distances that `pieces` hold as heights.
 void raise(const std::vector<RoofPiece>& pieces, const Profile& profile, RoofShape& roof) {
   for (const RoofPiece& piece : pieces) {
@@ -94,7 +103,19 @@ void raise(const std::vector<RoofPiece>& pieces, const Profile& profile, RoofSha
       }
       lift(std::move(rim));
     } else {
-      for (size_t k = 1; k < profile.size(); ++k) lift(band(piece.polygon, profile[k - 1].x, profile[k].x));
+      // Bands of a face that is not convex may fall apart: its triangles' bands do not.
+      Ring plan;
+      for (const dvec3& p : piece.polygon) plan.emplace_back(p);
+      std::vector<std::vector<dvec3>> parts{piece.polygon};
+      if (!isConvex(plan)) {
+        parts.clear();
+        const std::vector<uint32_t> triangles = triangulate({&plan, 1});
+        for (size_t t = 0; t + 2 < triangles.size(); t += 3)
+          parts.push_back(
+              {piece.polygon[triangles[t]], piece.polygon[triangles[t + 1]], piece.polygon[triangles[t + 2]]});
+      }
+      for (const auto& part : parts)
+        for (size_t k = 1; k < profile.size(); ++k) lift(band(part, profile[k - 1].x, profile[k].x));
     }
   }
 }
@@ -198,14 +219,6 @@ RoofShape pyramidOver(const Ring& ring, const RoofRequest& request) {
     roof.surfaces.push_back(
         {0, i, false, {dvec3(ring[i], 0), dvec3(ring[(i + 1) % ring.size()], 0), dvec3(middle, roof.height)}});
   return roof;
-}
-
-bool isConvex(const Ring& ring) {
-  for (size_t i = 0; i < ring.size(); ++i) {
-    const dvec2 a = ring[i], b = ring[(i + 1) % ring.size()], c = ring[(i + 2) % ring.size()];
-    if (!(cross(b - a, c - b) > 0)) return false;
-  }
-  return ring.size() >= 3;
 }
 
 }  // namespace

@@ -108,10 +108,17 @@ void addFlatRoof(BuildingBuilder& builder, std::span<const Ring> rings, double z
   constexpr double kThick = 0.3;
   for (const Ring& ring : rings) {
     const std::vector<double> inward(ring.size(), -kThick);
+    Ring inner;
+    for (size_t i = 0; i < ring.size(); ++i) inner.push_back(movedCorner(ring, inward, i));
+    const auto turned = [&](size_t i) {
+      const size_t k = (i + 1) % ring.size();
+      return !(glm::dot(ring[k] - ring[i], inner[k] - inner[i]) > 0);
+    };
+    bool narrow = false;  // no room for a wall on both sides
+    for (size_t i = 0; i < ring.size(); ++i) narrow = narrow || turned(i);
+    if (narrow) continue;
     for (size_t i = 0; i < ring.size(); ++i) {
-      const dvec2 a = ring[i], b = ring[(i + 1) % ring.size()];
-      const dvec2 c = movedCorner(ring, inward, (i + 1) % ring.size()), d = movedCorner(ring, inward, i);
-      if (!(glm::dot(b - a, c - d) > 0)) continue;
+      const dvec2 a = ring[i], b = ring[(i + 1) % ring.size()], c = inner[(i + 1) % ring.size()], d = inner[i];
       const dvec2 along = glm::normalize(b - a);
       const auto at = [&](dvec2 p, double up) { return glm::vec3(dvec3(p, z + up)); };
       builder.beginPlane(PlaneKind::Other, wall.material, glm::vec3(along.y, -along.x, 0), false);
