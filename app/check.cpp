@@ -37,17 +37,20 @@ std::string lostIn(const viewer::ItemCheck& items, const city::City& city, const
   const uint32_t index =
       full.ids[static_cast<size_t>(at.y) * static_cast<size_t>(full.width) + static_cast<size_t>(at.x)] - 1;
   const auto buildings = static_cast<uint32_t>(city.buildings.size());
+  const uint32_t things = city.itemCount() - 1;
   return (index < buildings ? " (building " + std::to_string(index)
-                            : " (monument " + std::to_string(index - buildings)) +
+          : index < things  ? " (monument " + std::to_string(index - buildings)
+                            : " (person " + std::to_string(index - things)) +
          " at " + std::to_string(at.x) + "," + std::to_string(at.y) + ")";
 }
 
-size_t itemsIn(const viewer::ItemBuffer& buffer) {
+/// Buildings and monuments that have a pixel.
+size_t itemsIn(const viewer::ItemBuffer& buffer, const city::City& city) {
   std::vector<uint32_t> ids = buffer.ids;
   std::sort(ids.begin(), ids.end());
   const auto end = std::unique(ids.begin(), ids.end());
   return static_cast<size_t>(
-      std::count_if(ids.begin(), end, [](uint32_t id) { return id != 0 && id != city::kItemOther; }));
+      std::count_if(ids.begin(), end, [&](uint32_t id) { return id != 0 && id < city.itemCount(); }));
 }
 
 }  // namespace
@@ -73,9 +76,10 @@ int check(const CheckOptions& options, const Surroundings& surroundings) {
   finishCache(*scene, console);
 
   // One planner as asked and one with every technique off, each with what it remembers between views. What hides what
-  // is checked on one ground: that at full detail.
+  // is checked on one ground and with one set of bodies: those at full detail.
   city::Knobs onFullGround = scene->knobs;
   onFullGround.set("roam", 0);
+  onFullGround.set("avatar_lod", 0);
   const plan::Planner planner(scene->city, onFullGround);
   const plan::Planner everything(scene->city, withoutTechniques(scene->knobs));
   plan::PlannerState state, everythingState;
@@ -113,7 +117,7 @@ int check(const CheckOptions& options, const Surroundings& surroundings) {
     tally.lost += items.lostPixels, tally.differing += items.differingPixels, tally.shown += items.shownPixels;
     tally.pixels += fullItems.ids.size();
     tally.culled += full.counts.instancesDrawn - plan.counts.instancesDrawn;
-    tally.drawn += plan.counts.instancesDrawn, tally.visible += itemsIn(fullItems);
+    tally.drawn += plan.counts.instancesDrawn, tally.visible += itemsIn(fullItems, scene->city);
     tally.differingColours += colours.differingPixels, tally.largest = std::max(tally.largest, colours.largest);
     if (items.differingPixels > 0 || colours.differingPixels > 0) {
       ++tally.badViews;
@@ -133,7 +137,7 @@ int check(const CheckOptions& options, const Surroundings& surroundings) {
   line("instances culled", tally.culled,
        " of " + std::to_string(done * (scene->city.buildings.size() + scene->city.monuments.size())));
   line("instances drawn", tally.drawn, "; " + std::to_string(tally.visible) + " of them have a pixel at this size");
-  line("pixels lost", tally.lost, " of " + std::to_string(tally.shown) + " that show a building or monument");
+  line("pixels lost", tally.lost, " of " + std::to_string(tally.shown) + " that show a building, monument or person");
   line("pixels whose item differs", tally.differing, " of " + std::to_string(tally.pixels));
   line("pixels whose colour differs", tally.differingColours,
        " in " + std::to_string(tally.pictures) + " pictures, by " + std::to_string(tally.largest) + "/255 at most");

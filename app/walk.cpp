@@ -181,10 +181,11 @@ class Guide {
   void lookInto(viewer::LiveView& live) { lookedInto_ = &live; }
 
  private:
-  /// F2 shows the overlay and gives it the mouse; F3 freezes the plan, and the visitor flies out to see it. Thawed, the
-  /// visitor is back where it was frozen.
+  /// P shows the people or not; F2 shows the overlay and gives it the mouse; F3 freezes the plan, and the visitor flies
+  /// out to see it. Thawed, the visitor is back where it was frozen.
   void lookInto(Visit& visit, viewer::Input& input) {
     if (input.toggleOverlay) lookedInto_->showOverlay(!lookedInto_->overlayShown());
+    if (input.togglePeople) lookedInto_->switchPeople();
     if (input.toggleFreeze) {
       lookedInto_->freeze(!lookedInto_->frozen());
       if (lookedInto_->frozen())

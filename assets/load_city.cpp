@@ -110,6 +110,8 @@ std::optional<SceneDescription> sceneOf(std::span<const std::string> inputs, con
   }
   for (std::string& file : scene->terrain.files) file = resolve(*scene, options, file);
   for (SceneMonument& m : scene->monuments) m.file = resolve(*scene, options, m.file);
+  for (std::vector<std::string>* files : {&scene->avatars.characters, &scene->avatars.motions})
+    for (std::string& file : *files) file = resolve(*scene, options, file);
   if (!options.terrainUnit.empty()) scene->terrain.unit = options.terrainUnit;
   scene->terrain.files.insert(scene->terrain.files.end(), options.elevation.begin(), options.elevation.end());
   return scene;
@@ -189,6 +191,8 @@ CachePlace cachePlaceOf(std::span<const std::string> inputs, const SceneDescript
   for (const SceneSource& s : scene.sources) files.push_back(s.file);
   files.insert(files.end(), scene.terrain.files.begin(), scene.terrain.files.end());
   for (const SceneMonument& m : scene.monuments) files.push_back(m.file);
+  for (const auto* list : {&scene.avatars.characters, &scene.avatars.motions})
+    files.insert(files.end(), list->begin(), list->end());
   for (const std::string& file : inputs) key.addText(fs::absolute(file, error).string());
   key.addNumber(files.size());
   for (const std::string& file : files) key.addText(fs::absolute(file, error).string());

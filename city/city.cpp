@@ -96,6 +96,16 @@ CityBytes memoryOf(const City& city) {
   for (const InstanceSet* set : {&city.buildings, &city.trees})
     out.instances += bytes(set->instances) + bytes(set->bounds) + bytes(set->nodes);
   if (city.terrain) out.terrain = bytes(city.terrain->heights);
+  for (const Character& c : city.people.characters) {
+    out.people += sizeof(c) + bytes(c.skeleton.joints) + bytes(c.jointFromSkin) + bytes(c.dresses);
+    for (const AvatarMesh& m : c.levels) out.people += bytes(m.vertices) + bytes(m.indices);
+    for (const Clip& clip : c.clips)
+      for (const Track& t : clip.tracks)
+        out.people += sizeof(t) + bytes(t.rotationTimes) + bytes(t.rotations) + bytes(t.translationTimes) +
+                      bytes(t.translations) + bytes(t.scaleTimes) + bytes(t.scales);
+  }
+  for (const WalkRoute& r : city.people.routes) out.people += sizeof(r) + bytes(r.points);
+  out.people += bytes(city.people.places) + bytes(city.people.placed);
   return out;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "city/avatars.hpp"
 #include "city/building_geometry.hpp"
 #include "city/height_field.hpp"
 #include "city/instance.hpp"
@@ -103,13 +104,16 @@ struct City {
   std::vector<WaterBody> water;
   std::optional<StreetGraph> streets;
   std::vector<Tour> tours;
+  People people;
   std::vector<Attributes> attributes;
   Environment environment;
 
-  /// Item ids, as item buffers hold them: 0 nothing, then buildings, then monuments; trees, terrain and water have none
-  /// and write kItemOther (they hide, and are never counted).
+  /// Item ids, as item buffers hold them: 0 nothing, then buildings, then monuments, then (beyond `itemCount`, which
+  /// counts what stands) people; trees, terrain and water have none and write kItemOther (they hide, and are never
+  /// counted).
   uint32_t itemOfBuilding(uint32_t index) const { return 1 + index; }
   uint32_t itemOfMonument(uint32_t index) const { return 1 + static_cast<uint32_t>(buildings.size()) + index; }
+  uint32_t itemOfPerson(uint32_t index) const { return itemCount() + index; }
   uint32_t itemCount() const { return 1 + static_cast<uint32_t>(buildings.size() + monuments.size()); }
 };
 constexpr uint32_t kItemOther = 0xffffffffU;
@@ -133,6 +137,7 @@ struct CityBytes {
   uint64_t geometry = 0;   ///< vertices, indices, planes, meshes
   uint64_t instances = 0;  ///< instances, bounds, hierarchy: the parameters
   uint64_t terrain = 0;
+  uint64_t people = 0;  ///< bodies, motions and ways
 };
 CityBytes memoryOf(const City& city);
 

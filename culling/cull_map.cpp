@@ -24,7 +24,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // ---- The walk -------------------------------------------------------------------------------------------------------
 
-enum class Kind : uint8_t { BuildingNode, Building, TreeNode, Tree, Monument, Tile };
+enum class Kind : uint8_t { BuildingNode, Building, TreeNode, Tree, Monument, Tile, Avatar };
 
 struct Entry {
   double distance;
@@ -73,6 +73,7 @@ class Walk {
     if (!city_.trees.nodes.empty()) offer(city_.trees.nodes[0].bounds, 0, Kind::TreeNode);
     for (const uint32_t m : plan_.monuments) offer(city_.monuments[m].bounds, m, Kind::Monument);
     for (const uint32_t t : plan_.tiles) offer(city_.tiles[t].bounds, t, Kind::Tile);
+    for (uint32_t a = 0; a < plan_.avatars.drawn.size(); ++a) offer(plan_.avatars.drawn[a].bounds, a, Kind::Avatar);
 
     while (!open_.empty()) {
       std::pop_heap(open_.begin(), open_.end(), later);
@@ -97,6 +98,9 @@ class Walk {
     std::sort(tiles_.begin(), tiles_.end());
     plan_.monuments = std::move(monuments_);
     plan_.tiles = std::move(tiles_);
+    std::sort(avatars_.begin(), avatars_.end());
+    for (size_t k = 0; k < avatars_.size(); ++k) plan_.avatars.drawn[k] = plan_.avatars.drawn[avatars_[k]];
+    plan_.avatars.drawn.resize(avatars_.size());
   }
 
  private:
@@ -116,6 +120,8 @@ class Walk {
         return city_.trees.bounds[entry.index];
       case Kind::Monument:
         return city_.monuments[entry.index].bounds;
+      case Kind::Avatar:
+        return plan_.avatars.drawn[entry.index].bounds;
       case Kind::Tile:
         break;
     }
@@ -201,6 +207,9 @@ class Walk {
         break;
       case Kind::Tile:
         tiles_.push_back(entry.index);
+        break;
+      case Kind::Avatar:
+        avatars_.push_back(entry.index);
         break;
     }
   }
@@ -374,7 +383,7 @@ class Walk {
   dvec3 eye_;
   PlacedWalls placer_;
   SetWalk buildings_, trees_;
-  std::vector<uint32_t> monuments_, tiles_;
+  std::vector<uint32_t> monuments_, tiles_, avatars_;
   std::vector<Entry> open_;
   std::vector<Pending> pending_;
   std::vector<dvec3> capPoints_;

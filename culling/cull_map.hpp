@@ -58,7 +58,7 @@ struct CullMapView {
   std::vector<Line> occluders;  ///< tops of the chosen walls, metres from the city's origin
 };
 
-/// Takes out of the plan's buildings, trees, monuments and tiles what cannot be seen because walls of buildings of the
+/// Takes out of the plan's buildings, trees, monuments, people and tiles what cannot be seen because walls of buildings of the
 /// plan stand before it; runs that are dropped get DropReason::Occluded. Nothing is culled for an eye above all roofs,
 /// under the ground, outside a terrain and not above it, or not finite.
 ///

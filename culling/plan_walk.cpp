@@ -43,6 +43,7 @@ class PlanWalk {
     buildings_.finish();
     trees_.finish();
     std::erase_if(plan_.monuments, [&](uint32_t m) { return hidden(city_.monuments[m].bounds); });
+    std::erase_if(plan_.avatars.drawn, [&](const city::AvatarDraw& a) { return hidden(a.bounds); });
     std::erase_if(plan_.tiles, [&](uint32_t t) { return hidden(city_.tiles[t].bounds); });
     show();
   }

@@ -15,6 +15,7 @@
 #include "culling/frustum.hpp"
 #include "culling/hierarchy.hpp"
 #include "plan/ground_weights.hpp"
+#include "plan/people.hpp"
 #include "terrain/error_table.hpp"
 
 namespace vicus::plan {
@@ -60,6 +61,7 @@ struct Scene {
   bool cullMap = false;
   culling::Occluders occluders;
   culling::CullMapOptions cullMapOptions;
+  PeopleScene people;
   bool roam = false;
   terrain::RoamSettings roamSettings;
   /// Made when the first frame needs them: looking at a scene without drawing it stays quick.
@@ -143,6 +145,18 @@ void cullHidden(Frame& frame) {
   frame.plan.counts.occluders = stats.occluders;
 }
 
+void frustumAvatars(Frame& frame) {
+  placePeople(frame.city, frame.scene.people, &frame.boxTest, frame.plan);
+}
+
+void allAvatars(Frame& frame) {
+  placePeople(frame.city, frame.scene.people, nullptr, frame.plan);
+}
+
+void poseAvatars(Frame& frame) {
+  posePeople(frame.city, frame.scene.people, frame.state.people, frame.plan);
+}
+
 void meshGround(Frame& frame) {
   const Scene& scene = frame.scene;
   const city::HeightField& field = *frame.city.terrain;
@@ -150,6 +164,10 @@ void meshGround(Frame& frame) {
                  [&] { scene.groundErrors = terrain::buildErrorTable(field, groundWeights(frame.city)); });
   if (!frame.state.ground) frame.state.ground.emplace(field, scene.groundErrors);
   frame.plan.roam = frame.state.ground->update(frame.plan.view, scene.roamSettings);
+}
+
+bool hasPeople(const Scene& scene) {
+  return !scene.people.persons.empty();
 }
 
 constexpr Step kSteps[] = {
@@ -161,8 +179,11 @@ constexpr Step kSteps[] = {
     {"all buildings", [](const Scene& s) { return !s.frustumCulling && s.buildings; }, allBuildings},
     {"all trees", [](const Scene& s) { return !s.frustumCulling && s.trees; }, allTrees},
     {"all monuments", [](const Scene& s) { return !s.frustumCulling && s.monuments; }, allMonuments},
+    {"frustum avatars", [](const Scene& s) { return s.frustumCulling && hasPeople(s); }, frustumAvatars},
+    {"all avatars", [](const Scene& s) { return !s.frustumCulling && hasPeople(s); }, allAvatars},
     {"cull map", [](const Scene& s) { return s.cullMap; }, cullHidden},
     {"roam", [](const Scene& s) { return s.roam; }, meshGround},
+    {"avatar poses", hasPeople, poseAvatars},
 };
 
 void lookAt(const City& city, const city::Knobs& knobs, Scene& scene) {
@@ -176,8 +197,10 @@ void lookAt(const City& city, const city::Knobs& knobs, Scene& scene) {
   scene.buildings = !city.buildings.empty();
   scene.trees = !city.trees.empty();
   scene.monuments = !city.monuments.empty();
-  scene.frustumCulling =
-      knobs.on("frustum_culling") && (scene.tiles || scene.buildings || scene.trees || scene.monuments);
+  scene.people = lookAtPeople(city, knobs);
+  scene.reach.extend(scene.people.reach);
+  scene.frustumCulling = knobs.on("frustum_culling") &&
+                         (scene.tiles || scene.buildings || scene.trees || scene.monuments || hasPeople(scene));
   // Sets made without tiles are reached through their own roots.
   for (const city::InstanceSet* set : {&city.buildings, &city.trees})
     if (!set->nodes.empty()) scene.reach.extend(set->nodes[0].bounds);
@@ -238,6 +261,12 @@ std::vector<FeatureReport> describe(const City& city, const city::Knobs& knobs, 
     why = scene.roam ? "the ground is drawn as finely as the eye can tell" : "no height field";
   features.push_back({"roam", true, scene.roam, std::move(why)});
 
+  if (scene.people.persons.empty())
+    why = "no people";
+  else
+    why = knobs.on("avatar_lod") ? "posed and drawn as finely as the eye can tell" : "knob";
+  features.push_back({"avatar_lod", true, !scene.people.persons.empty() && scene.people.lod.on, std::move(why)});
+
   const bool terrain = hasTerrain(city);
   features.push_back(
       {"terrain", false, terrain,
@@ -246,6 +275,8 @@ std::vector<FeatureReport> describe(const City& city, const city::Knobs& knobs, 
   features.push_back(content("buildings", city.buildings.size(), "building", "buildings"));
   features.push_back(content("trees", city.trees.size(), "tree", "trees"));
   features.push_back(content("monuments", city.monuments.size(), "monument", "monuments"));
+  features.push_back(content("avatars", scene.people.persons.size(), "person", "people"));
+  if (!city.people.empty() && !knobs.on("avatars.shown")) features.back().why = "knob";
   features.push_back(content("water", city.water.size(), "body of water", "bodies of water"));
   features.push_back(content("streets", city.streets ? city.streets->edges.size() : 0, "street", "streets"));
   return features;
@@ -280,6 +311,8 @@ void count(const City& city, const Scene& scene, uint64_t monumentsInFrustum, Fr
   counts.instancesDrawn = plan.buildings.drawnCount + plan.monuments.size();
   counts.instancesOccluded = counts.instancesInFrustum - counts.instancesDrawn;
   counts.treesDrawn = plan.trees.drawnCount;
+  counts.avatarsDrawn = plan.avatars.drawn.size();
+  counts.avatarPoses = plan.avatars.posesMade;
 }
 
 }  // namespace
@@ -294,6 +327,7 @@ std::span<const city::Knob> planKnobs() {
   static const std::vector<city::Knob> all = [] {
     std::vector<city::Knob> knobs(std::begin(kCullingKnobs), std::end(kCullingKnobs));
     knobs.insert(knobs.end(), terrain::roamKnobs().begin(), terrain::roamKnobs().end());
+    knobs.insert(knobs.end(), avatars::avatarKnobs().begin(), avatars::avatarKnobs().end());
     return knobs;
   }();
   return all;

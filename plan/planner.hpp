@@ -11,6 +11,7 @@
 #include "city/frame_plan.hpp"
 #include "city/knob.hpp"
 #include "culling/cull_map.hpp"
+#include "plan/people.hpp"
 #include "terrain/roam.hpp"
 
 namespace vicus::plan {
@@ -25,7 +26,8 @@ struct FeatureReport {
 
 /// What must be remembered between frames of one view; one for each view (eye, reference, item buffer, frozen view).
 struct PlannerState {
-  size_t runs = 0;  ///< runs of buildings in the last plan: how much room to make for the next; changes no result
+  size_t runs = 0;     ///< runs of buildings in the last plan: how much room to make for the next; changes no result
+  PeopleState people;  ///< their poses
   std::optional<terrain::Roam> ground;  ///< the mesh of this view; refers to the city and to the planner
 };
 

@@ -5,6 +5,7 @@ namespace {
 
 constexpr double kColumns[] = {64, 128, 256, 512, 1024, 8192};
 constexpr double kPixelErrors[] = {0.5, 1, 2, 4, 8, 16};
+constexpr double kPoseRates[] = {4, 8, 15, 30, 60, 120};
 constexpr double kMultisamples[] = {1, 2, 4, 8};
 
 constexpr Technique kTechniques[] = {
@@ -15,6 +16,11 @@ constexpr Technique kTechniques[] = {
      .sweptKnob = "roam.pixel_error",
      .sweep = kPixelErrors,
      .geometricErrorPixels = [](const city::FramePlan& plan) { return plan.roam ? plan.roam->pixelError : 0.0; }},
+    {.name = "avatar_lod",
+     .switchKnob = "avatar_lod",
+     .sweptKnob = "avatar_lod.rate",
+     .sweep = kPoseRates,
+     .geometricErrorPixels = [](const city::FramePlan& plan) { return plan.avatars.pixelError; }},
     {.name = "state_ordering", .switchKnob = "state_ordering"},
     {.name = "multisampling", .sweptKnob = "viewer.multisamples", .sweep = kMultisamples},
 };

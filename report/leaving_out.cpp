@@ -61,12 +61,32 @@ city::MeshGeometry smallMesh(city::MaterialId material) {
   return geometry;
 }
 
+/// Somebody of one joint and one triangle.
+city::People somebody(const glm::dvec3& place) {
+  city::People people;
+  city::Character& body = people.characters.emplace_back();
+  body.name = "forced";
+  body.skeleton.joints.push_back({"hips", city::kNone, {}});
+  body.jointFromSkin.emplace_back(1);
+  body.dresses.emplace_back();
+  for (city::AvatarMesh& mesh : body.levels) {
+    mesh.vertices.resize(3);
+    mesh.vertices[1].position = {0, 0.3F, 0}, mesh.vertices[2].position = {0, 0, 1.7F};
+    mesh.indices = {0, 1, 2};
+  }
+  body.bounds = {{-0.1F, -0.1F, 0}, {0.1F, 0.4F, 1.8F}};
+  people.placed.emplace_back().position = place;
+  people.count = 1;
+  return people;
+}
+
 }  // namespace
 
 std::optional<city::City> withPart(const city::City& city, std::string_view part) {
   const bool lacks = (part == "terrain" && !(city.terrain && !city.terrain->empty())) ||
                      (part == "water" && city.water.empty()) || (part == "trees" && city.trees.empty()) ||
-                     (part == "monuments" && city.monuments.empty()) || (part == "buildings" && city.buildings.empty());
+                     (part == "monuments" && city.monuments.empty()) ||
+                     (part == "buildings" && city.buildings.empty()) || (part == "avatars" && city.people.empty());
   if (!lacks) return std::nullopt;
   city::City forced = city;
   const city::Aabb ground = groundOf(city);
@@ -75,6 +95,7 @@ std::optional<city::City> withPart(const city::City& city, std::string_view part
   instance.position = {ground.centre().x, ground.centre().y, ground.min.z - kBelow};
 
   if (part == "terrain") forced.terrain = flatField(ground);
+  if (part == "avatars") forced.people = somebody(instance.position);
   if (part == "water") forced.water = {levelWater(ground)};
   if (part == "trees") {
     instance.geometry = static_cast<uint32_t>(forced.treeTypes.size());

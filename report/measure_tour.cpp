@@ -36,9 +36,10 @@ void noteItems(const Session& s, Run& run, const city::FramePlan& plan, const Pl
   run.itemsSeen = true;
 }
 
-void noteDrawn(Run& run, const city::FramePlan& plan, const Place& place) {
+void noteDrawn(const Session& s, Run& run, const city::FramePlan& plan, const Place& place) {
   run.drawn += static_cast<double>(plan.counts.instancesDrawn);
-  run.visible += static_cast<double>(place.items.size());
+  run.visible += static_cast<double>(
+      std::ranges::count_if(place.items, [&](const auto& item) { return item.first < s.city.itemCount(); }));
 }
 
 double geometricPixels(const Session& s, const Run& run, const city::FramePlan& plan) {
@@ -116,7 +117,7 @@ void drawPlace(Session& s, std::vector<Run>& runs, const Place& place, size_t nu
     run.geometricPixels = std::max(run.geometricPixels, geometricPixels(s, run, plan));
     if (warmUp) continue;
     run.records.push_back(record);
-    if (s.amounts.itemViews == 0) noteDrawn(run, plan, place);
+    if (s.amounts.itemViews == 0) noteDrawn(s, run, plan, place);
     if (!comparison) continue;
     const Comparison::Figures& figures = comparison->figuresOf(pictureOf(s, run));
     notePicture(run, figures);
@@ -239,7 +240,7 @@ void compareItems(Session& s, std::vector<Run>& runs, const city::Tour& tour, do
         plan::PlannerState state;
         const city::FramePlan plan = planFor(s, run, place, state);
         noteItems(s, run, plan, place);
-        noteDrawn(run, plan, place);
+        noteDrawn(s, run, plan, place);
       }
     });
     if (k == 0) views = s.budget.affordable(views, (views + 2) / 3, until, each);

@@ -17,7 +17,12 @@ void keepOnly(const city::City& city, const std::vector<std::pair<uint32_t, uint
   buildings.drawnCount = 0;
   std::vector<uint32_t> monuments;
   const auto buildingCount = static_cast<uint32_t>(city.buildings.size());
+  std::vector<uint32_t> people;
   for (const auto& [item, pixels] : items) {
+    if (item >= city.itemCount()) {
+      people.push_back(item - city.itemOfPerson(0));
+      continue;
+    }
     const uint32_t index = item - 1;
     if (index >= buildingCount) {
       if (std::binary_search(plan.monuments.begin(), plan.monuments.end(), index - buildingCount))
@@ -31,6 +36,8 @@ void keepOnly(const city::City& city, const std::vector<std::pair<uint32_t, uint
     ++buildings.drawnCount;
   }
   plan.monuments = std::move(monuments);
+  std::erase_if(plan.avatars.drawn,
+                [&](const city::AvatarDraw& a) { return !std::binary_search(people.begin(), people.end(), a.person); });
   plan.counts.instancesDrawn = buildings.drawnCount + plan.monuments.size();
   plan.counts.instancesOccluded = plan.counts.instancesInFrustum - plan.counts.instancesDrawn;
 }

@@ -45,7 +45,7 @@ struct Run {
 struct Place {
   city::ViewState view;
   double dt = 0;                                     ///< seconds since the place before
-  std::vector<std::pair<uint32_t, uint32_t>> items;  ///< buildings and monuments in sight, ascending, with their pixels
+  std::vector<std::pair<uint32_t, uint32_t>> items;  ///< buildings, monuments and people in sight, ascending, with their pixels
   std::optional<viewer::Picture> reference;          ///< where pictures are compared
 };
 

@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include "assets/import/import_stability.hpp"
+#include "avatars/stability.hpp"
 #include "culling/cull_map_stability.hpp"
 #include "culling/stability.hpp"
 #include "facade/stability.hpp"
@@ -20,6 +21,7 @@ std::vector<city::StabilityRow> allStability() {
   add(culling::cullMapStability());
   add(terrain::roamStability());
   add(facade::rulesStability());
+  add(avatars::avatarStability());
   return rows;
 }
 

@@ -73,6 +73,8 @@ std::unique_ptr<Feature> makeTrees(const city::City& city, const SceneParts& par
 std::unique_ptr<Feature> makeMonuments(const city::City& city, const SceneParts& parts);
 std::unique_ptr<Feature> makeTerrain(const city::City& city, const SceneParts& parts);
 std::unique_ptr<Feature> makeGround(const city::City& city, const SceneParts& parts);
+/// The city must outlive the feature.
+std::unique_ptr<Feature> makeAvatars(const city::City& city);
 std::unique_ptr<Feature> makeWater(const city::City& city);
 
 /// Metres that one repeat of the ground's detail covers.

@@ -29,6 +29,8 @@ struct MaterialTextures {
 
 /// Bindings of uniform and storage blocks; shaders/*.glsl names the same.
 constexpr GLuint kTileBinding = 1;
+constexpr GLuint kPoseBinding = 3;
+constexpr GLuint kDressBinding = 4;
 constexpr GLuint kMaterialBinding = 2;
 
 /// Texture units after those of the material arrays.
@@ -36,6 +38,7 @@ constexpr unsigned kGroundMapUnit = 4;
 constexpr unsigned kGroundDetailUnit = 5;
 constexpr unsigned kRippleUnit = 6;
 constexpr unsigned kCloudUnit = 7;
+constexpr unsigned kAvatarUnit = 8;
 
 /// Mip levels of one layer after the other.
 using LayerLevels = std::vector<std::vector<uint8_t>>;

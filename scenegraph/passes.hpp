@@ -7,7 +7,7 @@
 
 namespace vicus::scenegraph {
 
-enum class PassId : uint8_t { Opaque, Ground, CutOut, Sky, Water };
+enum class PassId : uint8_t { Opaque, Ground, Shadow, CutOut, Sky, Water };
 
 /// A pass exists only where the scene has something to draw in it.
 struct Pass {
@@ -19,13 +19,15 @@ struct Pass {
 };
 
 constexpr std::array kPasses = {
-    Pass{PassId::Opaque, "opaque", 0, "buildings, trees or monuments", true},
+    Pass{PassId::Opaque, "opaque", 0, "buildings, trees, monuments or people", true},
     // Ground after what stands on it: most of it is hidden and costs nothing then.
     Pass{PassId::Ground, "ground", 1, "terrain or anything that stands on the ground", true},
+    // On the ground alone: what stands there is drawn, and what is see-through is not yet.
+    Pass{PassId::Shadow, "shadows", 2, "people", false},
     // Separate, because a shader that discards takes the early depth test from all that it draws.
-    Pass{PassId::CutOut, "cut-out", 2, "a material whose picture has holes", true},
-    Pass{PassId::Sky, "sky", 3, "nothing: every picture has a sky", false},
-    Pass{PassId::Water, "water", 4, "water bodies", true},
+    Pass{PassId::CutOut, "cut-out", 3, "a material whose picture has holes, or people", true},
+    Pass{PassId::Sky, "sky", 4, "nothing: every picture has a sky", false},
+    Pass{PassId::Water, "water", 5, "water bodies", true},
 };
 
 constexpr const Pass& pass(PassId id) {

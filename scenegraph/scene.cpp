@@ -193,6 +193,7 @@ Scene::Scene(const city::City& city, const city::Knobs& knobs, city::Diagnostics
   if (!city.buildings.empty()) s.features.push_back(makeBuildings(city, parts));
   if (!city.monuments.empty()) s.features.push_back(makeMonuments(city, parts));
   if (!city.trees.empty()) s.features.push_back(makeTrees(city, parts));
+  if (!city.people.empty() && knobs.on("avatars.shown")) s.features.push_back(makeAvatars(city));
   if (hasTerrain) s.features.push_back(makeTerrain(city, parts));
   s.features.push_back(makeGround(city, parts));
   s.features.push_back(makeSky());

@@ -71,7 +71,7 @@ class Scene {
   uint64_t gpuBytes() const;
   /// The graph as text: one line a node with its name, class and counts, indented (`vicus info --graph`).
   std::string describeGraph() const;
-  /// Names of the features made: "buildings", "monuments", "trees", "terrain", "ground", "sky", "water".
+  /// Names of the features made: "buildings", "monuments", "trees", "avatars", "terrain", "ground", "sky", "water".
   std::vector<std::string> featureNames() const;
   /// Names of the passes that the scene has, in the order drawn (passes.hpp).
   std::vector<std::string> passNames() const;

@@ -32,6 +32,11 @@ SurfaceStates surfaceStates(PassId id, std::string_view vertexFile, std::string_
     }
     // The sky lies at the depth that pictures are cleared to, and hides nothing.
     if (id == PassId::Sky) set->setAttributeAndModes(new osg::Depth(osg::Depth::GEQUAL, 0, 1, false));
+    if (id == PassId::Shadow) {
+      set->setAttributeAndModes(new osg::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA));
+      set->setAttributeAndModes(new osg::Depth(osg::Depth::GEQUAL, 0, 1, false));
+      set->setAttributeAndModes(new osg::CullFace(osg::CullFace::BACK), osg::StateAttribute::OFF);
+    }
     if (id == PassId::Water && variant == Variant::Colour) {
       set->setAttributeAndModes(new osg::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA));
       set->setAttributeAndModes(new osg::Depth(osg::Depth::GEQUAL, 0, 1, false));

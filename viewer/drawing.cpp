@@ -17,7 +17,10 @@ bool turn(Drawing& drawing, std::string_view knob, double value) {
   drawing.context.makeCurrent();
   if (isOf(plan::planKnobs(), knob)) drawing.planner = std::make_unique<plan::Planner>(drawing.city, drawing.knobs);
   if (knob == "viewer.multisamples") drawing.renderer->setMultisamples(static_cast<int>(value));
-  if (!isOf(scenegraph::sceneKnobs(), knob)) return true;
+  // A scene that was made without people gets them; one that has them only shows none.
+  const bool lacksPeople = knob == "avatars.shown" && value != 0 && !drawing.city.people.empty() &&
+                           std::ranges::count(drawing.scene->featureNames(), "avatars") == 0;
+  if (!lacksPeople && !isOf(scenegraph::sceneKnobs(), knob)) return true;
   drawing.renderer.reset();
   drawing.scene.reset();
   city::Diagnostics diagnostics;  // the same as when the scene was made first

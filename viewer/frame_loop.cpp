@@ -136,9 +136,10 @@ std::vector<std::pair<std::string, MeanMax>> countsOf(std::span<const FrameRecor
   add("draw_calls", [](const FrameRecord& r) { return r.draw.drawCalls; });
   add("indirect_commands", [](const FrameRecord& r) { return r.draw.indirectCommands; });
   add("texture_binds", [](const FrameRecord& r) { return r.draw.textureBinds; });
-  // No scene has these yet; readers of the figures may count on them.
+  // No scene has this yet; readers of the figures may count on it.
   add("blockmaps", [](const FrameRecord&) { return 0; });
-  add("avatars", [](const FrameRecord&) { return 0; });
+  add("avatars", [](const FrameRecord& r) { return r.counts.avatarsDrawn; });
+  add("avatar_poses", [](const FrameRecord& r) { return r.counts.avatarPoses; });
   return out;
 }
 

@@ -5,7 +5,14 @@
 namespace vicus::viewer {
 
 bool plansItem(const city::City& city, const city::FramePlan& plan, uint32_t item) {
-  if (item == 0 || item >= city.itemCount()) return false;
+  if (item == 0 || item == city::kItemOther) return false;
+  if (item >= city.itemCount()) {
+    const uint32_t person = item - city.itemOfPerson(0);
+    const auto& people = plan.avatars.drawn;
+    const auto found = std::lower_bound(people.begin(), people.end(), person,
+                                        [](const city::AvatarDraw& a, uint32_t p) { return a.person < p; });
+    return found != people.end() && found->person == person;
+  }
   const uint32_t index = item - 1;
   const auto buildings = static_cast<uint32_t>(city.buildings.size());
   if (index >= buildings) return std::binary_search(plan.monuments.begin(), plan.monuments.end(), index - buildings);

@@ -17,9 +17,11 @@ void LiveView::install(LoopHooks& hooks) {
   hooks.pause = [this, before = std::move(hooks.pause)] {
     if (before) before();
     // What the user has turned counts from here on.
-    if (!change_) return;
-    const KnobChange change = *std::exchange(change_, std::nullopt);
-    if (!turn(drawing_, change.name, change.value)) return;
+    bool turned = false;
+    for (std::optional<KnobChange>* wanted : {&change_, &asked_})
+      if (const auto change = std::exchange(*wanted, std::nullopt))
+        turned |= turn(drawing_, change->name, change->value);
+    if (!turned) return;
     stage_ = drawing_.stage();
     told_ = features_(*drawing_.planner, drawing_.knobs);
   };
@@ -34,6 +36,10 @@ void LiveView::install(LoopHooks& hooks) {
 
 void LiveView::freeze(bool frozen) {
   wantsFrozen_ = frozen;
+}
+
+void LiveView::switchPeople() {
+  asked_ = KnobChange{"avatars.shown", drawing_.knobs.on("avatars.shown") ? 0.0 : 1.0};
 }
 
 city::FramePlan LiveView::plan(const NextView& next, plan::PlannerState& state) {

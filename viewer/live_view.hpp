@@ -31,6 +31,8 @@ class LiveView {
   /// Freezes the plan of the next frame, or thaws it.
   void freeze(bool frozen);
   bool frozen() const { return wantsFrozen_; }
+  /// Shows the people from the next frame on, or no longer.
+  void switchPeople();
   /// Freezes every frame's plan and shows it from this place.
   void showFrom(const city::ViewState& view) { from_ = view; }
   void point(const OverlayInput& input) { input_ = input; }
@@ -52,7 +54,7 @@ class LiveView {
   std::optional<city::ViewState> from_;
   city::ViewState shownView_;
   OverlayInput input_;
-  std::optional<KnobChange> change_;
+  std::optional<KnobChange> change_, asked_;  ///< from the panel, and from a key
 };
 
 }  // namespace vicus::viewer

@@ -33,6 +33,7 @@ struct Input {
   bool help = false, fullScreen = false;             ///< F1, F11: true once for each press
   bool screenshot = false;                           ///< F12
   bool toggleOverlay = false, toggleFreeze = false;  ///< F2, F3: true once for each press
+  bool togglePeople = false;                         ///< P
   glm::dvec2 pointer{-1};                            ///< pixels from the picture's upper left corner; −1: captured
   bool leftButton = false, rightButton = false;      ///< held down
   bool tap = false;                                  ///< the left button was pressed and let go on the spot

@@ -147,6 +147,7 @@ std::vector<PanelLine> helpLines() {
       {"record a tour; again: keep it", "R"},
       {"The window", "", true},
       {"this help", "F1"},
+      {"people on or off", "P"},
       {"full screen", "F11"},
       {"keep a picture", "F12"},
       {"leave", "Esc"},

@@ -175,6 +175,7 @@ Input Window::poll() {
   input.help = w.pressed(GLFW_KEY_F1);
   input.toggleOverlay = w.pressed(GLFW_KEY_F2);
   input.toggleFreeze = w.pressed(GLFW_KEY_F3);
+  input.togglePeople = w.pressed(GLFW_KEY_P);
   input.fullScreen = w.pressed(GLFW_KEY_F11);
   input.screenshot = w.pressed(GLFW_KEY_F12);
   w.forgetReleased();

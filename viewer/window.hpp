@@ -14,8 +14,8 @@ std::string displayProblem();
 
 /// A window with a GL context (compatibility profile, 4.5 down to 4.3), its keys and its mouse: W A S D or the arrows,
 /// Q and E down and up in flight, shift fast, F fly, O orbit, M map, T tour, B take me back, 1 to 9 views, R record, F1
-/// help, F2 overlay, F3 frozen plan, F11 full screen, F12 picture, Esc ends. The first gamepad that GLFW knows counts
-/// like keys. Invariant: while it lives the mouse is its own, unless freed.
+/// help, F2 overlay, F3 frozen plan, P people on or off, F11 full screen, F12 picture, Esc ends. The first gamepad that
+/// GLFW knows counts like keys. Invariant: while it lives the mouse is its own, unless freed.
 class Window : public GlContext {
  public:
   struct Options {

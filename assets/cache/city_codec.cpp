@@ -2,6 +2,7 @@
 // archive writes or reads them.
 #include "assets/cache/city_codec.hpp"
 
+#include <array>
 #include <cstring>
 #include <type_traits>
 #include <utility>
@@ -46,6 +47,16 @@ template <>
 constexpr bool kPlain<city::StreetGraph::Node> = sizeof(city::StreetGraph::Node) == 3 * 8;
 template <>
 constexpr bool kPlain<city::Tour::Key> = sizeof(city::Tour::Key) == 6 * 8;
+template <>
+constexpr bool kPlain<glm::quat> = true;
+template <>
+constexpr bool kPlain<glm::mat4> = true;
+template <>
+constexpr bool kPlain<city::JointTransform> = sizeof(city::JointTransform) == 10 * 4;
+template <>
+constexpr bool kPlain<city::AvatarVertex> = sizeof(city::AvatarVertex) == 7 * 4;
+template <>
+constexpr bool kPlain<city::Dress> = sizeof(city::Dress) == city::kDressParts * 3 * 4;
 template <>
 constexpr bool kPlain<city::Environment> = sizeof(city::Environment) == 3 * 8;
 
@@ -121,6 +132,10 @@ struct IsOptional : std::false_type {};
 template <typename T>
 struct IsOptional<std::optional<T>> : std::true_type {};
 template <typename T>
+struct IsArray : std::false_type {};
+template <typename T, size_t N>
+struct IsArray<std::array<T, N>> : std::bool_constant<!kPlain<std::array<T, N>>> {};
+template <typename T>
 struct IsPair : std::false_type {};
 template <typename A, typename B>
 struct IsPair<std::pair<A, B>> : std::true_type {};
@@ -130,6 +145,8 @@ template <typename Archive, typename T>
 requires IsVector<std::remove_const_t<T>>::value void visit(Archive& a, T& list);
 template <typename Archive, typename T>
 requires IsOptional<std::remove_const_t<T>>::value void visit(Archive& a, T& option);
+template <typename Archive, typename T>
+requires IsArray<std::remove_const_t<T>>::value void visit(Archive& a, T& array);
 template <typename Archive, typename T>
 requires IsPair<std::remove_const_t<T>>::value void visit(Archive& a, T& pair);
 template <typename Archive, typename T>
@@ -168,8 +185,20 @@ VICUS_FIELDS(city::WaterBody, name, level, points, indices)
 VICUS_FIELDS(city::StreetGraph::Edge, from, to, width, kind, name)
 VICUS_FIELDS(city::StreetGraph, nodes, edges)
 VICUS_FIELDS(city::Tour, name, keys, jumps)
+VICUS_FIELDS(city::Joint, name, parent, rest)
+VICUS_FIELDS(city::Skeleton, joints)
+VICUS_FIELDS(city::Track, joint, interpolation, rotationTimes, translationTimes, scaleTimes, rotations, translations,
+             scales)
+VICUS_FIELDS(city::Clip, name, duration, loops, stride, tracks)
+VICUS_FIELDS(city::AvatarMesh, vertices, indices)
+VICUS_FIELDS(city::Character, name, skeleton, jointFromSkin, levels, clips, dresses, bounds, carries)
+VICUS_FIELDS(city::WalkRoute::Point, position, free, deck)
+VICUS_FIELDS(city::WalkRoute, points, step)
+VICUS_FIELDS(city::StandingPlace, position, heading, group)
+VICUS_FIELDS(city::Person, character, role, route, start, speed, side, scale, dress, position, heading)
+VICUS_FIELDS(city::People, characters, routes, places, placed, count, seed)
 VICUS_FIELDS(city::City, name, origin, crs, extent, materials, buildingTypes, buildings, treeTypes, trees, meshes,
-             monuments, grid, tiles, terrain, groundCover, water, streets, tours, attributes, environment)
+             monuments, grid, tiles, terrain, groundCover, water, streets, tours, people, attributes, environment)
 VICUS_FIELDS(city::Diagnostic, severity, file, place, message)
 VICUS_FIELDS(city::LeftOut, what, count, why)
 VICUS_FIELDS(city::Diagnostics, messages, leftOut)
@@ -199,6 +228,11 @@ requires IsOptional<std::remove_const_t<T>>::value void visit(Archive& a, T& opt
   if (a.count(option.has_value() ? 1 : 0, 1) == 0) return;
   if constexpr (Archive::kReads) option.emplace();
   visit(a, *option);
+}
+
+template <typename Archive, typename T>
+requires IsArray<std::remove_const_t<T>>::value void visit(Archive& a, T& array) {
+  for (auto& value : array) visit(a, value);
 }
 
 template <typename Archive, typename T>

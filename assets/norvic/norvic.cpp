@@ -14,6 +14,8 @@
 #include "assets/norvic/palette.hpp"
 #include "assets/norvic/tours.hpp"
 #include "assets/norvic/trees.hpp"
+#include "assets/people/populate.hpp"
+#include "assets/people/townspeople.hpp"
 #include "city/random.hpp"
 
 namespace vicus::assets {
@@ -306,6 +308,11 @@ TourStops stopsOf(const QuarterBrief& brief, const QuarterPlan& town, const Land
   return stops;
 }
 
+/// Some hundred people in the streets of the town as designed.
+uint32_t peopleFor(size_t houses) {
+  return static_cast<uint32_t>(std::clamp<size_t>(houses / 6, 12, 1000));
+}
+
 City assemble(const Layout& layout, const Landscape& land, HouseCatalogue houses, std::vector<QuarterPlan> plans,
               const Progress& progress) {
   const auto say = [&](std::string_view stage, double fraction) {
@@ -338,6 +345,12 @@ City assemble(const Layout& layout, const Landscape& land, HouseCatalogue houses
   out.tours = makeTours(out, stopsOf(layout.quarters.front(), plans.front(), land));
   say("sorting into tiles", 0);
   city::finishCity(out, std::move(parts));
+  say("people", 0);
+  city::Diagnostics nothingToSay;  // it has streets and a market
+  people::populate(out,
+                   {peopleFor(out.buildings.size()), layout.quarters.front().seed,
+                    people::makeTownspeople(people::Period::Medieval)},
+                   out.name, nothingToSay);
   say("ready", 1);
   return out;
 }

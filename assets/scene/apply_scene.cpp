@@ -1,8 +1,14 @@
 #include "assets/scene/apply_scene.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "assets/import/projection.hpp"
+#include "assets/people/populate.hpp"
+#include "assets/people/read_bvh.hpp"
+#include "assets/people/read_character.hpp"
+#include "assets/people/townspeople.hpp"
 
 namespace vicus::assets {
 namespace {
@@ -22,6 +28,32 @@ std::optional<glm::dvec3> localOf(const ScenePlace& place, const city::City& cit
   double z = place.altitude ? *place.altitude + shift.z - city.origin.z : place.aboveGround;
   if (!place.altitude && city.terrain) z += city.terrain->heightAt(p[0].x, p[0].y).value_or(0);
   return glm::dvec3(p[0], z);
+}
+
+/// Who walks in the city: characters of files, else people made by code, in the walks of the motions.
+void addPeople(city::City& city, const SceneDescription& scene, city::Diagnostics& diagnostics) {
+  const SceneAvatars& wanted = scene.avatars;
+  people::Population population;
+  population.seed = wanted.seed;
+  population.count = wanted.count;
+  if (wanted.count == 0)
+    population.count = static_cast<uint32_t>(
+        std::min(100'000.0, std::round(wanted.density * static_cast<double>(city.buildings.size()) / 100)));
+  if (!wanted.on || population.count == 0) return;
+  for (const std::string& file : wanted.characters)
+    if (auto read = people::readCharacter(file, diagnostics)) population.characters.push_back(std::move(read->body));
+  if (population.characters.empty())
+    population.characters =
+        people::makeTownspeople(wanted.dress == "modern" ? people::Period::Modern : people::Period::Medieval);
+  std::vector<people::Motion> motions;
+  for (const std::string& file : wanted.motions)
+    if (auto motion = people::readBvh(file, {}, diagnostics)) motions.push_back(std::move(*motion));
+  for (size_t k = 0; k < population.characters.size() && !motions.empty(); ++k) {
+    const size_t which = k % motions.size();
+    people::useMotion(population.characters[k], motions[which].skeleton, motions[which].clip, motions[which].clip.name,
+                      diagnostics);
+  }
+  people::populate(city, std::move(population), scene.file, diagnostics);
 }
 
 }  // namespace
@@ -46,8 +78,7 @@ void applyScene(city::City& city, const SceneDescription& scene, glm::dvec3 shif
   if (light.sunAzimuth) city.environment.sunAzimuth = *light.sunAzimuth;
   if (light.sunElevation) city.environment.sunElevation = *light.sunElevation;
   if (light.hazeDistance) city.environment.hazeDistance = *light.hazeDistance;
-  if (scene.avatars.count > 0)
-    diagnostics.leftOut.push_back({"avatars", scene.avatars.count, "a city holds no people yet"});
+  addPeople(city, scene, diagnostics);
 }
 
 }  // namespace vicus::assets

@@ -9,8 +9,8 @@
 
 namespace vicus::assets {
 
-/// Puts the description's views (as tours of one key), tours and light into a finished city. `shift` is what was added
-/// to all coordinates. Says what of the description has no part in this city.
+/// Puts the description's views (as tours of one key), tours, light and people into a finished city. `shift` is what
+/// was added to all coordinates. Says what of the description has no part in this city.
 void applyScene(city::City& city, const SceneDescription& scene, glm::dvec3 shift, city::Diagnostics& diagnostics);
 
 }  // namespace vicus::assets

@@ -330,10 +330,16 @@ void readRoot(Table& root, SceneDescription& scene) {
       root.wrong(*knobs, "knobs", "a table: [knobs]");
   }
   root.table("avatars", [&](Table& t) {
-    double count = 0;
+    SceneAvatars& a = scene.avatars;
+    double count = 0, seed = 1;
     t.number("count", count, 0, 100000);
-    scene.avatars.count = static_cast<uint32_t>(count);
-    t.texts("characters", scene.avatars.characters);
+    t.number("seed", seed, 0, 4294967295.0);
+    t.number("density", a.density, 0, 10000);
+    a.count = static_cast<uint32_t>(count), a.seed = static_cast<uint32_t>(seed);
+    t.flag("on", a.on);
+    oneOf(t, "dress", a.dress, {"medieval", "modern"});
+    t.texts("characters", a.characters);
+    t.texts("motions", a.motions);
   });
   root.table("environment", [&](Table& t) {
     if (const auto v = t.number("sun_azimuth", -360, 360)) scene.environment.sunAzimuth = radians(*v);

@@ -64,8 +64,13 @@ struct SceneTour {
 
 /// People to walk in the streets.
 struct SceneAvatars {
-  uint32_t count = 0;
-  std::vector<std::string> characters;  ///< glTF files with a walk
+  bool on = true;
+  uint32_t count = 0;                   ///< 0: as `density` says
+  double density = 0;                   ///< people for each hundred buildings
+  std::string dress;                    ///< "medieval" or "modern"; empty: medieval
+  std::vector<std::string> characters;  ///< glTF, FBX or COLLADA files; none: people made by code
+  std::vector<std::string> motions;     ///< BVH files: the people's walks, one after another
+  uint32_t seed = 1;
 };
 
 struct SceneEnvironment {

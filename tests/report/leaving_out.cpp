@@ -71,7 +71,7 @@ Made make(const city::City& city) {
   made.programs = std::move(programs.names);
   made.gpuBytes = scene.gpuBytes();
   const city::CityBytes bytes = city::memoryOf(city);
-  made.bytes = bytes.geometry + bytes.instances + bytes.terrain;
+  made.bytes = bytes.geometry + bytes.instances + bytes.terrain + bytes.people;
   return made;
 }
 
@@ -90,6 +90,7 @@ const Part kParts[] = {
     {"water", "", "water", "water", false},
     {"trees", "frustum trees", "", "", true},
     {"monuments", "frustum monuments", "", "monument", true},
+    {"avatars", "avatar poses", "shadows", "avatar", true},
 };
 
 /// A town with houses alone; each part is then forced on.

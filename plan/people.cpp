@@ -1,0 +1,145 @@
+/// Based on: Willmott et al. 2001, §5.2 (a variable number of animations a second for each avatar).
+#include "plan/people.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "avatars/crowd.hpp"
+#include "avatars/pose.hpp"
+#include "city/random.hpp"
+
+namespace vicus::plan {
+namespace {
+
+using city::Aabbf;
+using city::Person;
+using glm::dvec3;
+
+constexpr double kNearest = 0.3;  // metres: who is nearer to the eye is no larger
+
+/// The bounds of a body that may face anywhere.
+Aabbf boundsAt(const city::Character& body, const dvec3& position, double scale) {
+  const glm::vec3 far =
+      body.bounds.empty() ? glm::vec3(0.5F, 0.5F, 2) : glm::max(glm::abs(body.bounds.min), glm::abs(body.bounds.max));
+  const double radius = scale * std::hypot(static_cast<double>(far.x), static_cast<double>(far.y));
+  const double below = body.bounds.empty() ? 0 : scale * std::max(0.0, -static_cast<double>(body.bounds.min.z));
+  return city::outward({position - dvec3(radius, radius, below + 0.02),
+                        position + dvec3(radius, radius, scale * static_cast<double>(far.z))});
+}
+
+/// Runs of a person's clip at a time: how far his legs have come.
+double runsAt(const Person& person, const city::Clip& clip, double time) {
+  if (!(clip.duration > 0)) return 0;
+  const double speed = static_cast<double>(person.speed);
+  if (person.route != city::kNone && clip.stride > 0)
+    return (person.start + speed * time) / (clip.stride * static_cast<double>(person.scale));
+  return (person.start + speed * time) / clip.duration;
+}
+
+double fraction(double x) {
+  return std::isfinite(x) ? x - std::floor(x) : 0;
+}
+
+}  // namespace
+
+PeopleScene lookAtPeople(const city::City& city, const city::Knobs& knobs) {
+  PeopleScene scene;
+  if (city.people.empty() || !knobs.on("avatars.shown")) return scene;
+  scene.lod = {knobs.on("avatar_lod"), knobs["avatar_lod.rate"], knobs["avatar_lod.pixel_error"]};
+  const double number = knobs["avatars.number"];
+  scene.persons = avatars::peopleOf(city.people, number > 0 ? static_cast<size_t>(number) : city.people.count);
+  std::erase_if(scene.persons, [&](const Person& p) { return p.character >= city.people.characters.size(); });
+  for (const city::Character& c : city.people.characters) scene.errors.push_back(avatars::levelErrorsOf(c));
+
+  uint32_t first = 0;
+  city::Aabb ways;
+  for (const Person& p : scene.persons) {
+    const city::Character& body = city.people.characters[p.character];
+    scene.firstMatrix.push_back(first);
+    first += static_cast<uint32_t>(body.skeleton.joints.size());
+    scene.reach.extend(boundsAt(body, p.position, static_cast<double>(p.scale)));
+  }
+  for (const city::WalkRoute& r : city.people.routes)
+    for (const auto& point : r.points) ways.extend(point.position);
+  if (!ways.empty()) {
+    // Beside the way by its free width, and up and down with the ground there.
+    constexpr double kBeside = 6, kUp = 8;
+    scene.reach.extend(
+        city::outward({ways.min - dvec3(kBeside, kBeside, kUp), ways.max + dvec3(kBeside, kBeside, kUp)}));
+  }
+  return scene;
+}
+
+void placePeople(const city::City& city, const PeopleScene& scene, const culling::BoxTest* test,
+                 city::FramePlan& plan) {
+  const bool terrain = city.terrain && !city.terrain->empty();
+  const std::vector<avatars::Place> places =
+      avatars::placesAt(city.people, scene.persons, terrain ? &*city.terrain : nullptr, plan.view.time);
+  for (uint32_t i = 0; i < places.size(); ++i) {
+    const Person& person = scene.persons[i];
+    const city::Character& body = city.people.characters[person.character];
+    const Aabbf bounds = boundsAt(body, places[i].position, static_cast<double>(person.scale));
+    if (test) {
+      uint32_t mask = test->allPlanes;
+      ++plan.counts.boxTests;
+      if (culling::classify(*test, bounds, mask) == culling::Containment::Outside) continue;
+    }
+    city::AvatarDraw draw;
+    draw.person = i, draw.character = person.character, draw.role = person.role, draw.scale = person.scale;
+    draw.dress = person.dress < body.dresses.size() ? person.dress : 0;
+    draw.position = places[i].position, draw.heading = places[i].heading, draw.bounds = bounds;
+    plan.avatars.drawn.push_back(draw);
+  }
+  plan.avatars.inFrustum = plan.avatars.drawn.size();
+}
+
+void posePeople(const city::City& city, const PeopleScene& scene, PeopleState& state, city::FramePlan& plan) {
+  if (state.posedAt.size() != scene.persons.size()) {
+    state.posedAt.assign(scene.persons.size(), std::numeric_limits<double>::quiet_NaN());
+    const size_t last = scene.persons.empty() ? 0 : scene.persons.size() - 1;
+    state.matrices.resize(scene.persons.empty()
+                              ? 0
+                              : scene.firstMatrix[last] +
+                                    city.people.characters[scene.persons[last].character].skeleton.joints.size());
+  }
+  const double slope = city::pixelsPerUnitSlope(plan.view);
+  const double time = std::isfinite(plan.view.time) ? plan.view.time : 0;
+  city::Pose pose;
+  std::vector<std::array<glm::vec4, 3>> made;
+  for (city::AvatarDraw& draw : plan.avatars.drawn) {
+    const Person& person = scene.persons[draw.person];
+    const city::Character& body = city.people.characters[draw.character];
+    const avatars::LevelErrors& errors = scene.errors[draw.character];
+    const city::Clip& clip = body.clips[static_cast<size_t>(draw.role)];
+    const double distance = std::max(glm::distance(draw.position, plan.view.eye), kNearest);
+    const double pixelsPerMetre = slope / distance * static_cast<double>(draw.scale);
+    draw.level = avatars::levelFor(scene.lod, errors, pixelsPerMetre);
+
+    const double offset = city::hash32(draw.person) / 4294967296.0;
+    const double rate = avatars::poseRate(scene.lod, distance);
+    const double posed = avatars::poseTime(scene.lod, rate, offset, time);
+    draw.phase = static_cast<float>(fraction(runsAt(person, clip, posed)));
+    const double runsLate = std::abs(runsAt(person, clip, time) - runsAt(person, clip, posed));
+    plan.avatars.pixelError =
+        std::max(plan.avatars.pixelError,
+                 (errors.fastest * runsLate * clip.duration + errors.metres[draw.level]) * pixelsPerMetre);
+    if (draw.level == city::kAvatarMeshLevels) continue;
+
+    const uint32_t first = scene.firstMatrix[draw.person];
+    if (state.posedAt[draw.person] != posed) {
+      avatars::samplePose(body.skeleton, clip, static_cast<double>(draw.phase) * clip.duration, pose);
+      made.clear();
+      avatars::addSkinMatrices(body, pose, made);
+      std::copy(made.begin(), made.end(), state.matrices.begin() + first);
+      state.posedAt[draw.person] = posed;
+      ++plan.avatars.posesMade;
+    }
+    draw.firstMatrix = static_cast<uint32_t>(plan.avatars.matrices.size());
+    const auto begin = state.matrices.begin() + first;
+    plan.avatars.matrices.insert(plan.avatars.matrices.end(), begin,
+                                 begin + static_cast<std::ptrdiff_t>(body.skeleton.joints.size()));
+  }
+}
+
+}  // namespace vicus::plan
