@@ -10,7 +10,7 @@ namespace vicus::assets {
 
 struct ApartLimits {
   double seconds = 8;                     ///< then it is ended
-  uint64_t bytes = uint64_t{1900} << 20;  ///< of memory; not kept under the address sanitizer, which needs more itself
+  uint64_t bytes = uint64_t{1900} << 20;  ///< of memory, besides what the caller has
 };
 
 /// Runs `work` in a forked process and gives what it returns; nothing, with the reason in `why`, where that process

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "assets/import/apart.hpp"
 #include "assets/import/read_mesh.hpp"
 #include "import_files.hpp"
 
@@ -223,6 +224,22 @@ TEST(CityGml, PicturesLieWhereTheirCoordinatesSay) {
 }
 
 // ---- Meshes ----
+
+TEST(Meshes, ReadersThatAskForTooMuchAreEnded) {
+  ApartLimits limits;
+  limits.bytes = uint64_t{64} << 20;
+  std::string why;
+  const auto greedy = runApart(
+      [] {
+        std::string bytes;
+        for (int i = 0; i < 40; ++i) bytes.append(size_t{32} << 20, 'x');
+        return std::string("read");
+      },
+      limits, why);
+  EXPECT_FALSE(greedy);
+  EXPECT_THAT(why, HasSubstr("asked for more memory than there is"));
+  EXPECT_EQ(runApart([] { return std::string("read"); }, {}, why), "read");
+}
 
 TEST(Meshes, StandOnTheirFeetAtTheirHeight) {
   const TemporaryFolder folder;
