@@ -203,6 +203,9 @@ Image readImageFile(const std::string& path, city::Diagnostics& diagnostics) {
   // Readers of bytes are found by a name's ending: PNG begins with a byte that no other format does.
   const char* kind = bytes.size() > 1 && bytes[0] == '\x89' ? "slice.png" : "slice.jpg";
   OIIO::Filesystem::IOMemReader memory(const_cast<char*>(bytes.data()), bytes.size());
+  // PNG's reader takes the bytes from the hints alone where there are any.
+  OIIO::Filesystem::IOProxy* reader = &memory;
+  if (slice) hints.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &reader);
   const auto file = slice ? OIIO::ImageInput::open(kind, &hints, &memory) : OIIO::ImageInput::open(path, &hints);
   if (!file) {
     diagnostics.error(path, "", "the picture cannot be read; grey is shown: " + oneLine(OIIO::geterror()));

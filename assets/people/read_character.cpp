@@ -76,9 +76,10 @@ void paintBody(city::AvatarMesh& mesh, const Paint& paint, city::Diagnostics& di
     const city::Vertex& from = paint.vertices[v];
     if (from.material >= paint.materials.size()) continue;
     vec3 colour = paint.materials[from.material].tint;
+    // Both begin at the bottom.
     if (const Image& picture = pictures[from.material]; picture.width > 0) {
       const auto x = static_cast<size_t>(texel(from.uv.x, picture.width)),
-                 y = static_cast<size_t>(texel(1 - from.uv.y, picture.height));
+                 y = static_cast<size_t>(texel(from.uv.y, picture.height));
       const uint8_t* p = &picture.rgba[4 * (y * static_cast<size_t>(picture.width) + x)];
       for (int k = 0; k < 3; ++k) colour[k] *= std::pow(static_cast<float>(p[k]) / 255, 2.2F);
     }

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "assets/people/populate.hpp"
@@ -232,6 +233,17 @@ TEST(Characters, HaveARoleForEachAndStandOnTheGround) {
     ASSERT_TRUE(read) << said(d);
     const city::Character& body = read->body;
     EXPECT_THAT(body.clips[0].name, HasSubstr("Walk")) << name;
+    // Their pictures lie inside the files: not everything is of one grey.
+    EXPECT_TRUE(d.messages.empty()) << said(d);
+    std::set<std::array<uint8_t, 4>> colours;
+    for (const city::AvatarVertex& v : body.levels[0].vertices) colours.insert(v.colour);
+    EXPECT_GT(colours.size(), 4U) << name;
+    const auto isSkin = [](const std::array<uint8_t, 4>& c) {  // 242, 168, 126 in the Rogue's picture
+      return std::abs(c[0] - 241) < 4 && std::abs(c[1] - 161) < 4 && std::abs(c[2] - 117) < 4;
+    };
+    if (std::string(name) == "kaykit_Rogue_Hooded") {
+      EXPECT_TRUE(std::ranges::any_of(colours, isSkin)) << "the right way up";
+    }
     for (const city::Clip& clip : body.clips) EXPECT_GT(clip.duration, 0.2) << name;
     EXPECT_GT(body.clips[0].stride, 0.2) << name;
     EXPECT_LT(body.clips[0].stride, 3) << name;
