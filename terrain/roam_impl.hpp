@@ -289,8 +289,17 @@ struct Roam::Impl {
     return static_cast<uint8_t>(crossed);
   }
   uint8_t planesCrossed(uint8_t mask, uint32_t id);
-  /// What the children of a side begin with. Those of a pressed one may reach out of it.
-  uint8_t inherited(const Diamond& d, uint32_t s) const { return d.pressed ? eye.allPlanes : d.side[s].planes; }
+  /// Whether a side's own triangle reaches beyond the field: pressed back onto it, its children may reach out of it.
+  bool sideReachesOut(const Diamond& d, uint32_t s) const {
+    if (!d.pressed) return false;
+    for (const glm::ivec2& corner : cornersOf(d, s))
+      if (corner.x > lastHalf.x || corner.y > lastHalf.y) return true;
+    return false;
+  }
+  /// What the children of a side begin with. Those of one that reaches beyond the field ask all planes again.
+  uint8_t inherited(const Diamond& d, uint32_t s) const {
+    return sideReachesOut(d, s) ? eye.allPlanes : d.side[s].planes;
+  }
 
   /// Carries the frustum down the trees. Triangles that stay wholly inside or outside end the descent.
   void carryFrustumDown();

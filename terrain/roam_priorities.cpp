@@ -107,7 +107,7 @@ void Roam::Impl::carryFrustumDown() {
     Side& t = side(visit.id);
     const uint8_t before = t.planes;
     t.planes = visit.planes == 0 || visit.planes == kOutside ? visit.planes : planesCrossed(visit.planes, visit.id);
-    if (t.planes == before && (before == 0 || before == kOutside) && !d.pressed) continue;
+    if (t.planes == before && (before == 0 || before == kOutside) && !sideReachesOut(d, s)) continue;
     if ((t.planes == kOutside) != (before == kOutside)) {
       if (t.slot != kNone) visible += t.planes != kOutside ? 1U : 0xffffffffU;
       look(batch, visit.id);

@@ -522,6 +522,12 @@ TEST_P(RandomJumps, KeepEveryInvariant) {
 }
 INSTANTIATE_TEST_SUITE_P(Quick, RandomJumps, testing::Range(0U, 5U));
 
+/// Once a pressed diamond's inner side asked the frustum anew, which the next frame, leaving out what lies wholly
+/// outside, did not: splits stayed.
+TEST(Roam, ASideWithinAPressedDiamondTakesTheFrustumFromAbove) {
+  jumpAbout(10'069, 50);
+}
+
 TEST(DISABLED_RandomJumpsInFull, TenThousandKeepEveryInvariant) {
   for (uint32_t field = 0; field < 200; ++field) {
     jumpAbout(10'000 + field, 50);
