@@ -18,14 +18,28 @@ using glm::dvec3;
 
 constexpr double kNearest = 0.3;  // metres: who is nearer to the eye is no larger
 
-/// The bounds of a body that may face anywhere.
-Aabbf boundsAt(const city::Character& body, const dvec3& position, double scale) {
+/// As assets/shaders/avatar_shadow.vert draws it: away from the sun, 3 m at most.
+glm::dvec2 shadowOf(const city::Environment& light) {
+  const glm::dvec2 sun(std::sin(light.sunAzimuth), std::cos(light.sunAzimuth));
+  const double reach = std::min(1.6 * std::cos(light.sunElevation) / std::max(std::sin(light.sunElevation), 0.1), 3.0);
+  return std::isfinite(sun.x) && std::isfinite(reach) ? -reach * sun : glm::dvec2(0);
+}
+
+/// The bounds of a body that may face anywhere, and of its shadow.
+Aabbf boundsAt(const city::Character& body, const dvec3& position, double scale, glm::dvec2 shadow) {
+  constexpr double kOval = 0.5, kSteep = 1;  // metres about the shadow's ends; of the ground, up for each metre
   const glm::vec3 far =
       body.bounds.empty() ? glm::vec3(0.5F, 0.5F, 2) : glm::max(glm::abs(body.bounds.min), glm::abs(body.bounds.max));
   const double radius = scale * std::hypot(static_cast<double>(far.x), static_cast<double>(far.y));
   const double below = body.bounds.empty() ? 0 : scale * std::max(0.0, -static_cast<double>(body.bounds.min.z));
-  return city::outward({position - dvec3(radius, radius, below + 0.02),
-                        position + dvec3(radius, radius, scale * static_cast<double>(far.z))});
+  city::Aabb box{position - dvec3(radius, radius, below + 0.02),
+                 position + dvec3(radius, radius, scale * static_cast<double>(far.z))};
+  const double rise = kSteep * (scale * glm::length(shadow) + kOval);
+  const dvec3 end = position + dvec3(scale * shadow, 0), about(kOval, kOval, rise);
+  box.extend(end - about);
+  box.extend(end + about);
+  box.extend(position - about);
+  return city::outward(box);
 }
 
 /// Runs of a person's clip at a time: how far his legs have come.
@@ -52,13 +66,14 @@ PeopleScene lookAtPeople(const city::City& city, const city::Knobs& knobs) {
   std::erase_if(scene.persons, [&](const Person& p) { return p.character >= city.people.characters.size(); });
   for (const city::Character& c : city.people.characters) scene.errors.push_back(avatars::levelErrorsOf(c));
 
+  scene.shadow = shadowOf(city.environment);
   uint32_t first = 0;
   city::Aabb ways;
   for (const Person& p : scene.persons) {
     const city::Character& body = city.people.characters[p.character];
     scene.firstMatrix.push_back(first);
     first += static_cast<uint32_t>(body.skeleton.joints.size());
-    scene.reach.extend(boundsAt(body, p.position, static_cast<double>(p.scale)));
+    scene.reach.extend(boundsAt(body, p.position, static_cast<double>(p.scale), scene.shadow));
   }
   for (const city::WalkRoute& r : city.people.routes)
     for (const auto& point : r.points) ways.extend(point.position);
@@ -79,7 +94,7 @@ void placePeople(const city::City& city, const PeopleScene& scene, const culling
   for (uint32_t i = 0; i < places.size(); ++i) {
     const Person& person = scene.persons[i];
     const city::Character& body = city.people.characters[person.character];
-    const Aabbf bounds = boundsAt(body, places[i].position, static_cast<double>(person.scale));
+    const Aabbf bounds = boundsAt(body, places[i].position, static_cast<double>(person.scale), scene.shadow);
     if (test) {
       uint32_t mask = test->allPlanes;
       ++plan.counts.boxTests;

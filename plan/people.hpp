@@ -19,7 +19,8 @@ struct PeopleScene {
   std::vector<avatars::LevelErrors> errors;  ///< by character
   std::vector<uint32_t> firstMatrix;         ///< by person, of all joints of all
   avatars::LodSettings lod;
-  city::Aabbf reach;  ///< of everybody, wherever he goes
+  glm::dvec2 shadow{0};  ///< where the shadow of somebody of usual size ends on level ground, metres from his feet
+  city::Aabbf reach;     ///< of everybody, wherever he goes
 };
 
 /// The poses that a view keeps from frame to frame. Who is posed when depends on the time alone, so that a view that

@@ -22,7 +22,8 @@ Axes axesOf(const Face& face, const std::vector<glm::dvec3>& points) {
 
 std::optional<city::OccluderLine> occluderOf(const Face& face, const Axes& axes,
                                              const std::vector<glm::dvec3>& points) {
-  if (std::abs(face.normal.z) > 0.01 || face.rings.size() != 1 || face.bothSides || face.bent) return std::nullopt;
+  if (std::abs(face.normal.z) > 0.01 || face.rings.size() != 1 || face.rings[0].empty() || face.bothSides || face.bent)
+    return std::nullopt;
   const auto& ring = face.rings[0];
   const size_t n = ring.size();
   const auto along = [&](size_t i) { return glm::dot(points[ring[i % n]], axes.u); };

@@ -16,7 +16,7 @@ namespace vicus::assets::gltf {
 using Json = nlohmann::json;
 
 /// A model: its JSON and the bytes of its first buffer, which others own.
-struct Model {
+struct Model {  // NOLINT(bugprone-exception-escape): the JSON library moves without throwing, and says so
   Json json;
   std::string_view bin;
   std::string binFile;   ///< that `bin` comes from

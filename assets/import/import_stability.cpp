@@ -72,7 +72,7 @@ std::vector<city::StabilityRow> importStability() {
     rows.push_back(city::stabilityRow("coordinates", caseName, "error of a side of 20 m, metres",
                                       largestSideError(std::move(source)), bound));
   };
-  const auto degrees = [](std::vector<glm::dvec2> corners) {
+  const auto degrees = [](const std::vector<glm::dvec2>& corners) {
     Source source = sourceIn("EPSG:4326");
     for (const glm::dvec2 corner : corners)
       source.footprints.push_back(

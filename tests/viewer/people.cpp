@@ -116,6 +116,26 @@ TEST(People, WhatAViewRemembersShowsNowhere) {
   }
 }
 
+/// Whoever stands hidden may throw a shadow that is not.
+TEST(People, ShadowsLieWithinTheBoundsThatAreCulled) {
+  city::City city = peopledTown(50);
+  city.environment.sunAzimuth = 0.7, city.environment.sunElevation = 0.4;
+  const plan::Planner planner(city, knobsWith({{"frustum_culling", 0}, {"cull_map", 0}}));
+  plan::PlannerState state;
+  const city::FramePlan plan = planner.plan(city, viewFrom({-10, 8, 1.7}, 0.2, 3), 0, state);
+  ASSERT_EQ(plan.avatars.drawn.size(), 50U);
+  const double reach = std::min(1.6 / std::tan(0.4), 3.0);
+  const glm::dvec2 away(-std::sin(0.7), -std::cos(0.7)), aside(away.y, -away.x);
+  for (const city::AvatarDraw& draw : plan.avatars.drawn)
+    for (const double side : {-0.32, 0.32}) {
+      const double scale = static_cast<double>(draw.scale);
+      const glm::dvec2 end = glm::dvec2(draw.position) + (scale * reach + 0.32) * away + side * aside;
+      const city::Aabbf& box = draw.bounds;
+      EXPECT_TRUE(end.x >= static_cast<double>(box.min.x) && end.x <= static_cast<double>(box.max.x) &&
+                  end.y >= static_cast<double>(box.min.y) && end.y <= static_cast<double>(box.max.y));
+    }
+}
+
 TEST(People, TheSwitchAndTheNumber) {
   const city::City city = peopledTown(100);
   const city::ViewState view = viewFrom({-10, 8, 200}, 0.2, 3);
