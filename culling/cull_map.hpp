@@ -58,9 +58,9 @@ struct CullMapView {
   std::vector<Line> occluders;  ///< tops of the chosen walls, metres from the city's origin
 };
 
-/// Takes out of the plan's buildings, trees, monuments, people and tiles what cannot be seen because walls of buildings of the
-/// plan stand before it; runs that are dropped get DropReason::Occluded. Nothing is culled for an eye above all roofs,
-/// under the ground, outside a terrain and not above it, or not finite.
+/// Takes out of the plan's buildings, trees, monuments, people and tiles what cannot be seen because walls of buildings
+/// of the plan stand before it; runs that are dropped get DropReason::Occluded. Nothing is culled for an eye above all
+/// roofs, under the ground, outside a terrain and not above it, or not finite.
 ///
 /// Conservative: a box is dropped only if each point of it, moved by up to 1/64 of a pixel, lies behind such walls.
 CullMapStats cullOccluded(const city::City& city, const Occluders& occluders, const CullMapOptions& options,

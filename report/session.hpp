@@ -44,9 +44,10 @@ struct Run {
 /// A place on a tour, with what is true there whoever draws it: found once, for all runs and curves.
 struct Place {
   city::ViewState view;
-  double dt = 0;                                     ///< seconds since the place before
-  std::vector<std::pair<uint32_t, uint32_t>> items;  ///< buildings, monuments and people in sight, ascending, with their pixels
-  std::optional<viewer::Picture> reference;          ///< where pictures are compared
+  double dt = 0;  ///< seconds since the place before
+  std::vector<std::pair<uint32_t, uint32_t>>
+      items;                                 ///< buildings, monuments and people in sight, ascending, with their pixels
+  std::optional<viewer::Picture> reference;  ///< where pictures are compared
 };
 
 struct Session {

@@ -175,7 +175,7 @@ class SurfaceBuilder {
   std::optional<facade::StyledHouse> house_;
   facade::Derivation made_;
   uint32_t walls_ = 0;
-  bool hasFlat_ = false;  ///< the wall being added has a surface for far away
+  bool hasFlat_ = false;                                 ///< the wall being added has a surface for far away
   city::MaterialId wallMaterial_ = id(Finish::Plaster);  ///< of the wall being added
   bool any_ = false;
   double gapSum_ = 0;

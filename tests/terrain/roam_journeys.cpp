@@ -1,5 +1,5 @@
-/// Walks, flights and jumps over large fields: the wanted error, cracks, and that motion leaves nothing behind. Long: run
-/// by ./test --full with --gtest_also_run_disabled_tests.
+/// Walks, flights and jumps over large fields: the wanted error, cracks, and that motion leaves nothing behind. Long:
+/// run by ./test --full with --gtest_also_run_disabled_tests.
 #include <gtest/gtest.h>
 
 #include <numbers>
