@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "assets/people/joints.hpp"
 #include "assets/people/townspeople.hpp"
 #include "avatars/pose.hpp"
 #include "avatars/resample.hpp"
@@ -24,28 +25,6 @@ constexpr float kHipBelowHips = 0.03F, kAnkle = 0.08F;  // metres
 constexpr float kStride = 1.16F, kCycle = 0.96F;        // metres and seconds: 1.2 m/s, an even walk
 constexpr float kStance = 0.62F;                        // of a cycle that a foot bears
 constexpr size_t kPoses = 48;
-
-enum Joint : uint32_t {
-  Hips,
-  Spine,
-  Chest,
-  Neck,
-  Head,
-  LeftUpperArm,
-  LeftLowerArm,
-  LeftHand,
-  RightUpperArm,
-  RightLowerArm,
-  RightHand,
-  LeftUpperLeg,
-  LeftLowerLeg,
-  LeftFoot,
-  LeftToe,
-  RightUpperLeg,
-  RightLowerLeg,
-  RightFoot,
-  RightToe
-};
 
 /// Turns about the axis across the body: positive swings what hangs down back.
 quat back(float angle) {

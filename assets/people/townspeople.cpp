@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "assets/people/body_builder.hpp"
+#include "assets/people/joints.hpp"
 #include "avatars/pose.hpp"
 #include "city/random.hpp"
 
@@ -19,18 +20,6 @@ using glm::vec2;
 using glm::vec3;
 
 enum Part : uint8_t { Skin, Hair, Upper, Lower, Linen, Shoes, Hat, Carried };
-enum Joint : uint32_t {
-  Hips,
-  Spine,
-  Chest,
-  Neck,
-  Head,
-  LeftUpperArm,
-  RightUpperArm = 8,
-  LeftUpperLeg = 11,
-  RightUpperLeg = 15
-};
-
 enum class Headwear : uint8_t { None, Coif, Hood, Straw, Veil, Cap };
 enum class Load : uint8_t { None, Basket, OnHead };
 

@@ -16,12 +16,6 @@ using city::BuildingGeometry;
 using city::PlaneKind;
 using testing::HasSubstr;
 
-const BuildingGeometry& onlyBuilding(const LoadResult& r) {
-  EXPECT_TRUE(r.city) << messagesOf(r.diagnostics);
-  EXPECT_EQ(r.city->buildingTypes.size(), 1u) << messagesOf(r.diagnostics);
-  return r.city->buildingTypes.at(0);
-}
-
 /// Walls and roof of the box, outward; the floor is not drawn.
 void expectBox(const BuildingGeometry& g) {
   EXPECT_NEAR(areaOf(g, PlaneKind::Wall), 2 * (10 + 8) * 6, 1e-2);

@@ -64,6 +64,13 @@ inline std::string messagesOf(const city::Diagnostics& d) {
   return out;
 }
 
+/// The building of a file that holds one.
+inline const city::BuildingGeometry& onlyBuilding(const LoadResult& r) {
+  EXPECT_TRUE(r.city) << messagesOf(r.diagnostics);
+  EXPECT_EQ(r.city->buildingTypes.size(), 1u) << messagesOf(r.diagnostics);
+  return r.city->buildingTypes.at(0);
+}
+
 /// Calls `visit(first index)` for each triangle of walls, roofs and what goes into them; what sticks out closes
 /// nothing.
 template <class F>

@@ -42,12 +42,6 @@ LoadResult loadBare(const std::vector<std::string>& features) {
   return load(folder.write("town.toml", "[[sources]]\nfile = \"town.geojson\"\n[[styles]]\nrules = \"bare\"\n"));
 }
 
-const BuildingGeometry& onlyBuilding(const LoadResult& r) {
-  EXPECT_TRUE(r.city) << messagesOf(r.diagnostics);
-  EXPECT_EQ(r.city->buildingTypes.size(), 1u) << messagesOf(r.diagnostics);
-  return r.city->buildingTypes.at(0);
-}
-
 const std::vector<glm::dvec2> kL{{0, 0}, {20, 0}, {20, 8}, {8, 8}, {8, 20}, {0, 20}};
 const std::vector<glm::dvec2> kHole{{2, 2}, {5, 2}, {5, 5}, {2, 5}};
 constexpr double kLArea = 20 * 8 + 8 * 12, kHoleArea = 9;

@@ -15,12 +15,6 @@ using city::PlaneKind;
 using testing::HasSubstr;
 using testing::Not;
 
-const BuildingGeometry& onlyBuilding(const LoadResult& r) {
-  EXPECT_TRUE(r.city) << messagesOf(r.diagnostics);
-  EXPECT_EQ(r.city->buildingTypes.size(), 1u) << messagesOf(r.diagnostics);
-  return r.city->buildingTypes.at(0);
-}
-
 double volumeOf(const BuildingGeometry& g) {
   return volumeAbove(g, static_cast<double>(g.bounds.min.z));
 }
