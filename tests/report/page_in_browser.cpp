@@ -42,19 +42,22 @@ class PageInBrowser : public ::testing::Test {
     if (!folder_.empty()) std::filesystem::remove_all(folder_);
   }
 
-  /// The page's elements after its script, and then `probe`, have run in a window of that width. What `probe` finds out
-  /// it writes into document.title.
+  /// What `probe` writes into document.title, run once everything on the page has loaded in a window of that width.
+  /// Pictures that wait to be scrolled to are loaded with the rest: the load event then waits for them, so that probe
+  /// has nothing to wait for itself. (Virtual time does not stand still for a decoder's thread on a busy machine.)
   std::string titleAfter(const std::string& probe, int width) {
-    std::string page = reportPage(syntheticReport());
+    std::string page = std::regex_replace(reportPage(syntheticReport()), std::regex(" loading=\"?lazy\"?"), "");
     const std::string script = "<script>addEventListener('load', () => { " + probe + " });</script></body>";
     page.replace(page.rfind("</body>"), 7, script);
     const std::filesystem::path file = folder_ / "page.html";
     std::ofstream(file) << page;
-    const std::string dom = outputOf(
-        "chromium --headless --no-sandbox --disable-gpu --virtual-time-budget=2000 "
+    const std::string command =
+        "chromium --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --virtual-time-budget=2000 "
         "--user-data-dir=" +
         (folder_ / "profile").string() + " --window-size=" + std::to_string(width) + ",900 --dump-dom file://" +
-        file.string() + " 2>/dev/null");
+        file.string() + " 2>/dev/null";
+    std::string dom;
+    for (int start = 0; start < 3 && dom.empty(); ++start) dom = outputOf(command);  // a browser may fail to start
     std::smatch title;
     return std::regex_search(dom, title, std::regex("<title>([^<]*)</title>")) ? title[1].str() : dom;
   }
@@ -74,12 +77,11 @@ TEST_F(PageInBrowser, FitsNarrowAndWideWindows) {
 }
 
 TEST_F(PageInBrowser, EveryPictureAndPlotIsThere) {
-  EXPECT_EQ(titleAfter("for (const i of document.images) i.loading = 'eager';"
-                       "Promise.all([...document.images].map(i => i.decode())).then("
-                       "() => document.title = document.images.length + ' pictures, ' + "
-                       "document.querySelectorAll('svg.plot').length + ' plots')",
+  EXPECT_EQ(titleAfter("const shown = [...document.images].filter(i => i.complete && i.naturalWidth > 0).length;"
+                       "document.title = shown + ' of ' + document.images.length + ' pictures, ' + "
+                       "document.querySelectorAll('svg.plot').length + ' plots'",
                        1280),
-            "3 pictures, 6 plots");
+            "3 of 3 pictures, 6 plots");
 }
 
 TEST_F(PageInBrowser, PointsTellTheirFiguresWhenPointedAt) {
