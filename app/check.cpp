@@ -67,7 +67,7 @@ int check(const CheckOptions& options, const Surroundings& surroundings) {
     return kCouldNot;
   }
   city::Diagnostics diagnostics;
-  scenegraph::Scene graph(scene->city, scene->knobs, diagnostics,
+  scenegraph::Scene graph(*scene->city, scene->knobs, diagnostics,
                           [&](std::string_view stage, double fraction) { console.progress(stage, fraction); });
   console.progressDone();
   console.report(diagnostics);
@@ -80,8 +80,8 @@ int check(const CheckOptions& options, const Surroundings& surroundings) {
   city::Knobs onFullGround = scene->knobs;
   onFullGround.set("roam", 0);
   onFullGround.set("avatar_lod", 0);
-  const plan::Planner planner(scene->city, onFullGround);
-  const plan::Planner everything(scene->city, withoutTechniques(scene->knobs));
+  const plan::Planner planner(*scene->city, onFullGround);
+  const plan::Planner everything(*scene->city, withoutTechniques(scene->knobs));
   plan::PlannerState state, everythingState;
   city::Random random(options.seed);
   const size_t views = options.single.empty() ? options.views : options.single.size();
@@ -90,7 +90,7 @@ int check(const CheckOptions& options, const Surroundings& surroundings) {
       const ViewOption& single = options.single[k];
       return {single.eye, single.heading, single.pitch, 0};
     }
-    return options.street ? viewer::randomStreetView(scene->city, random) : viewer::randomView(scene->city, random);
+    return options.street ? viewer::randomStreetView(*scene->city, random) : viewer::randomView(*scene->city, random);
   };
 
   Tally tally;
@@ -100,11 +100,11 @@ int check(const CheckOptions& options, const Surroundings& surroundings) {
     const double knob = glm::radians(scene->knobs["viewer.fov"]);
     const double fov = options.single.empty() ? knob : options.single[done].fov.value_or(knob);
     const city::ViewState view = city::makeView(pose, fov, options.size);
-    const city::FramePlan plan = planner.plan(scene->city, view, 0, state);
-    const city::FramePlan full = everything.plan(scene->city, view, 0, everythingState);
+    const city::FramePlan plan = planner.plan(*scene->city, view, 0, state);
+    const city::FramePlan full = everything.plan(*scene->city, view, 0, everythingState);
 
     const viewer::ItemBuffer fullItems = renderer.drawItems(full);
-    const viewer::ItemCheck items = viewer::checkItems(scene->city, plan, fullItems, renderer.drawItems(plan));
+    const viewer::ItemCheck items = viewer::checkItems(*scene->city, plan, fullItems, renderer.drawItems(plan));
     viewer::PictureDifference colours;
     if (options.picturesEvery > 0 && done % options.picturesEvery == 0) {
       renderer.draw(full);
@@ -117,12 +117,12 @@ int check(const CheckOptions& options, const Surroundings& surroundings) {
     tally.lost += items.lostPixels, tally.differing += items.differingPixels, tally.shown += items.shownPixels;
     tally.pixels += fullItems.ids.size();
     tally.culled += full.counts.instancesDrawn - plan.counts.instancesDrawn;
-    tally.drawn += plan.counts.instancesDrawn, tally.visible += itemsIn(fullItems, scene->city);
+    tally.drawn += plan.counts.instancesDrawn, tally.visible += itemsIn(fullItems, *scene->city);
     tally.differingColours += colours.differingPixels, tally.largest = std::max(tally.largest, colours.largest);
     if (items.differingPixels > 0 || colours.differingPixels > 0) {
       ++tally.badViews;
       console.warn("view " + std::to_string(done) + ": " + std::to_string(items.lostPixels) + " pixels lost" +
-                   lostIn(items, scene->city, fullItems) + ", " + std::to_string(items.differingPixels) +
+                   lostIn(items, *scene->city, fullItems) + ", " + std::to_string(items.differingPixels) +
                    " items and " + std::to_string(colours.differingPixels) + " colours differ; " + asOption(pose));
     }
     console.progress("checking", static_cast<double>(done + 1) / static_cast<double>(views));
@@ -135,7 +135,7 @@ int check(const CheckOptions& options, const Surroundings& surroundings) {
   };
   line("views", done, " at " + std::to_string(options.size.x) + "x" + std::to_string(options.size.y));
   line("instances culled", tally.culled,
-       " of " + std::to_string(done * (scene->city.buildings.size() + scene->city.monuments.size())));
+       " of " + std::to_string(done * (scene->city->buildings.size() + scene->city->monuments.size())));
   line("instances drawn", tally.drawn, "; " + std::to_string(tally.visible) + " of them have a pixel at this size");
   line("pixels lost", tally.lost, " of " + std::to_string(tally.shown) + " that show a building, monument or person");
   line("pixels whose item differs", tally.differing, " of " + std::to_string(tally.pixels));

@@ -87,7 +87,7 @@ std::string walkJson(const WalkResult& result) {
 }
 
 std::string infoJson(const OpenScene& scene, std::span<const plan::FeatureReport> features) {
-  const city::City& city = scene.city;
+  const city::City& city = *scene.city;
   const glm::dvec3 extent = city.extent.empty() ? glm::dvec3(0) : city.extent.size();
   const city::CityBytes bytes = city::memoryOf(city);
   Json out;
@@ -114,7 +114,7 @@ std::string infoJson(const OpenScene& scene, std::span<const plan::FeatureReport
 }
 
 std::string infoText(const OpenScene& scene, std::span<const plan::FeatureReport> features) {
-  const city::City& city = scene.city;
+  const city::City& city = *scene.city;
   const glm::dvec3 extent = city.extent.empty() ? glm::dvec3(0) : city.extent.size();
   const city::CityBytes bytes = city::memoryOf(city);
   constexpr size_t kLabel = 20;

@@ -13,7 +13,7 @@ int info(const InfoOptions& options, const Surroundings& surroundings) {
   if (!scene) return code;
   if (options.graph) {
     city::Diagnostics diagnostics;
-    const scenegraph::Scene graph(scene->city, scene->knobs, diagnostics,
+    const scenegraph::Scene graph(*scene->city, scene->knobs, diagnostics,
                                   [&](std::string_view stage, double fraction) { console.progress(stage, fraction); });
     console.progressDone();
     console.report(diagnostics);
@@ -21,7 +21,7 @@ int info(const InfoOptions& options, const Surroundings& surroundings) {
     finishCache(*scene, console);
     return kDone;
   }
-  const plan::Planner planner(scene->city, scene->knobs);
+  const plan::Planner planner(*scene->city, scene->knobs);
   const std::vector<plan::FeatureReport> features = featuresOf(planner, scene->knobs);
   surroundings.out << (options.json ? infoJson(*scene, features) : infoText(*scene, features)) << std::flush;
   finishCache(*scene, console);

@@ -38,13 +38,18 @@ std::string sceneName(const SceneOptions& options) {
   return name;
 }
 
-assets::LoadOptions loadOptions(const SceneOptions& options, const Surroundings& surroundings, Console& console) {
+assets::LoadOptions loadOptions(const SceneOptions& options, std::string dataFolder) {
   assets::LoadOptions load;
   load.elevation = options.elevation;
   load.heightColumn = options.heightColumn, load.groundColumn = options.groundColumn;
   load.crs = options.crs, load.terrainUnit = options.terrainUnit, load.lod = options.lod;
   load.shift = options.shift;
-  load.dataFolder = surroundings.dataFolder;
+  load.dataFolder = std::move(dataFolder);
+  return load;
+}
+
+assets::LoadOptions loadOptions(const SceneOptions& options, const Surroundings& surroundings, Console& console) {
+  assets::LoadOptions load = loadOptions(options, surroundings.dataFolder);
   if (!options.noCache) load.cacheFolder = surroundings.cacheFolder;
   load.progress = [&console](std::string_view stage, double fraction) { console.progress(stage, fraction); };
   return load;
@@ -94,18 +99,25 @@ std::optional<OpenScene> openScene(const SceneOptions& options, const Surroundin
     code = kCouldNot;
     return std::nullopt;
   }
-  scene.city = std::move(*result.city);
+  scene.city = std::make_unique<city::City>(std::move(*result.city));
+  scene.ownFiles = ownFilesOf(result);
   scene.diagnostics = std::move(result.diagnostics);
   scene.fromCache = result.fromCache;
   scene.cached = std::move(result.cached);
 
   char seconds[32];
   std::snprintf(seconds, sizeof seconds, "%.2f", scene.seconds);
-  console.say(scene.name + ": " + std::to_string(scene.city.buildings.size()) + " buildings of " +
-              std::to_string(scene.city.buildingTypes.size()) + " types, " +
-              std::to_string(scene.city.monuments.size()) + " monuments, " + std::to_string(scene.city.trees.size()) +
+  console.say(scene.name + ": " + std::to_string(scene.city->buildings.size()) + " buildings of " +
+              std::to_string(scene.city->buildingTypes.size()) + " types, " +
+              std::to_string(scene.city->monuments.size()) + " monuments, " + std::to_string(scene.city->trees.size()) +
               " trees in " + seconds + " s" + (scene.fromCache ? " from the cache" : ""));
   return scene;
+}
+
+std::vector<std::string> ownFilesOf(const assets::LoadResult& loaded) {
+  std::vector<std::string> files = loaded.rulesFiles;
+  if (!loaded.descriptionFile.empty()) files.push_back(loaded.descriptionFile);
+  return files;
 }
 
 void finishCache(OpenScene& scene, Console& console) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <future>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,12 +19,13 @@ namespace vicus::app {
 
 /// A scene as the commands work with it.
 struct OpenScene {
-  std::string name;  ///< the inputs as given
-  city::City city;
+  std::string name;                  ///< the inputs as given
+  std::unique_ptr<city::City> city;  ///< never null; another one when its rules change (reload.hpp)
   city::Knobs knobs;
   city::Diagnostics diagnostics;
   bool fromCache = false;
   double seconds = 0;                     ///< that loading took
+  std::vector<std::string> ownFiles;      ///< whose change while it is shown should show: its rules and description
   std::future<city::Diagnostics> cached;  ///< the writing of the cache, which may go on
 };
 
@@ -36,12 +38,17 @@ std::optional<city::Knobs> knobsFrom(const std::vector<std::string>& settings, C
 /// The inputs as given.
 std::string sceneName(const SceneOptions& options);
 
-/// How the loader is asked for what the user named.
+/// How the loader is asked for what the user named; without cache and progress.
+assets::LoadOptions loadOptions(const SceneOptions& options, std::string dataFolder);
+/// The same with both.
 assets::LoadOptions loadOptions(const SceneOptions& options, const Surroundings& surroundings, Console& console);
 
 /// Loads the city, telling progress and messages. On failure nothing, with the exit code in `code`.
 std::optional<OpenScene> openScene(const SceneOptions& options, const Surroundings& surroundings, Console& console,
                                    int& code);
+
+/// The user's own files of rules that a scene follows, and its description: what is worth watching.
+std::vector<std::string> ownFilesOf(const assets::LoadResult& loaded);
 
 /// Waits until the cache is written and says what went wrong with it.
 void finishCache(OpenScene& scene, Console& console);

@@ -43,7 +43,7 @@ int report(const ReportCommandOptions& options, const Surroundings& surroundings
 
   std::string error;
   const std::optional<report::ReportData> data =
-      report::runReport(scene->city, scene->knobs, scene->diagnostics, settings, error);
+      report::runReport(*scene->city, scene->knobs, scene->diagnostics, settings, error);
   console.progressDone();
   finishCache(*scene, console);
   if (!data) error = error.empty() ? "the report could not be made" : error;

@@ -34,9 +34,9 @@ std::string rounded(double value, int decimals) {
 
 /// Where and of what a picture is.
 std::vector<std::pair<std::string, std::string>> notesOf(const OpenScene& scene, const city::ViewPose& pose) {
-  const glm::dvec3 at = scene.city.origin + pose.eye;
+  const glm::dvec3 at = scene.city->origin + pose.eye;
   const std::string place = rounded(at.x, 2) + ", " + rounded(at.y, 2) + ", " + rounded(at.z, 2);
-  const std::string crs = scene.city.crs.empty() ? "local metres" : scene.city.crs;
+  const std::string crs = scene.city->crs.empty() ? "local metres" : scene.city->crs;
   const double compass = std::remainder(90 - glm::degrees(pose.heading) - 180, 360) + 180;
   const std::string view = rounded(pose.eye.x, 3) + "," + rounded(pose.eye.y, 3) + "," + rounded(pose.eye.z, 3) + "," +
                            rounded(glm::degrees(pose.heading), 2) + "," + rounded(glm::degrees(pose.pitch), 2);
@@ -145,10 +145,21 @@ void Visit::handleWindow(const viewer::Input& input) {
 void Visit::step(const viewer::Input& input, double now, double dt) {
   if (input.toggleRecord) record(now);
   const viewer::Mode before = navigator_.mode;
-  viewer::step(navigator_, input, dt, open_->city, sights_);
+  viewer::step(navigator_, input, dt, *open_->city, sights_);
   recorder_.note(now, navigator_.pose);
   if (navigator_.mode != before) say(nameOf(navigator_.mode));
   if (input.takeBack) say("Back at the last good place");
+}
+
+void Visit::cityChanged() {
+  // What stands near is gathered anew.
+  for (viewer::Navigator* navigator : {&navigator_, &stayed_}) navigator->ground.reset(), navigator->standing.reset();
+}
+
+void Visit::showProblems(std::vector<viewer::PanelLine> lines) {
+  const int margin = static_cast<int>(std::lround(16 * window_.contentScale()));
+  problems_.set(lines.empty() ? viewer::Picture()
+                              : viewer::drawPanel(lines, window_.contentScale(), window_.size() - 2 * margin));
 }
 
 void Visit::flyOut(const city::ViewPose& from) {
@@ -169,6 +180,7 @@ void Visit::paint() {
     helpFor_ = size;
   }
   if (helpShown_) help_.paint(size, (size - help_.size()) / 2);
+  problems_.paint(size, {margin, margin});
   if (messageUntil_ && Clock::now() > *messageUntil_) message_.set({}), messageUntil_.reset();
   message_.paint(size, {(size.x - message_.size().x) / 2, size.y - message_.size().y - margin});
 }

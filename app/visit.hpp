@@ -11,6 +11,7 @@
 
 #include "app/open_scene.hpp"
 #include "viewer/navigator.hpp"
+#include "viewer/panel.hpp"
 #include "viewer/recorder.hpp"
 #include "viewer/shown_picture.hpp"
 #include "viewer/window.hpp"
@@ -40,8 +41,12 @@ class Visit {
   /// Leaves the visitor where he is and flies out from a pose; back again.
   void flyOut(const city::ViewPose& from);
   void flyBack();
+  /// The city became another one at the same place.
+  void cityChanged();
   /// Shows a few words for some seconds.
   void say(const std::string& text);
+  /// Shows what is wrong until it is right: one text or a quoted piece of a file a line. Nothing: it is right.
+  void showProblems(std::vector<viewer::PanelLine> lines);
   /// Paints over the frame, just before it is shown.
   void paint();
   /// After a frame from that pose: keeps its picture where the visitor asked for one.
@@ -59,7 +64,7 @@ class Visit {
   viewer::Recorder recorder_;
   bool helpShown_ = false, pictureWanted_ = false, left_ = false;
   glm::ivec2 helpFor_{0};  ///< window size that the help was made for
-  viewer::ShownPicture help_, message_, screen_;
+  viewer::ShownPicture help_, message_, problems_, screen_;
   std::optional<Clock::time_point> messageUntil_, lastLoading_;
 };
 

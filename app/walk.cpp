@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <future>
 #include <set>
+#include <sstream>
 #include <thread>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "app/figures.hpp"
 #include "app/interrupt.hpp"
 #include "app/open_scene.hpp"
+#include "app/reload.hpp"
 #include "app/visit.hpp"
 #include "report/stage_trace.hpp"
 #include "viewer/drawing.hpp"
@@ -247,6 +249,31 @@ class Guide {
   city::ViewState view_;
 };
 
+/// Shows what came of changed rules, or says what is wrong with them.
+void showRebuilt(Rebuilt rebuilt, OpenScene& scene, viewer::Drawing& drawing, viewer::LiveView& live, Visit& visit,
+                 Console& console) {
+  if (!rebuilt.city) {
+    console.report(rebuilt.diagnostics);
+    std::vector<viewer::PanelLine> lines{{"The town stays as it was", "", true}};
+    constexpr size_t kMost = 4;
+    for (const city::Diagnostic& d : rebuilt.diagnostics.messages)
+      if (d.severity == city::Severity::Error && lines.size() < 3 * kMost) {
+        std::istringstream text(city::describe(d));
+        for (std::string line; std::getline(text, line);) lines.push_back({line, "", false, line.starts_with("  ")});
+      }
+    visit.showProblems(std::move(lines));
+    return;
+  }
+  char seconds[32];
+  std::snprintf(seconds, sizeof seconds, "%.2f", rebuilt.seconds);
+  show(std::move(rebuilt), scene, drawing);
+  live.cityChanged();
+  visit.cityChanged();
+  visit.showProblems({});
+  visit.say(std::string("Built anew in ") + seconds + " s");
+  console.say(std::to_string(scene.city->buildings.size()) + " buildings built anew in " + seconds + " s");
+}
+
 void tellTimes(const std::vector<viewer::FrameRecord>& records, const std::string& renderer, Console& console) {
   if (records.empty()) return;
   const viewer::RunTimes times = viewer::timesOf(records);
@@ -295,14 +322,14 @@ int walk(const WalkOptions& options, const Surroundings& surroundings) {
   if (!scene || !screen.context) return fail(scene ? kCouldNot : code);
   std::vector<city::Tour> tours;
   std::future<std::optional<city::Tour>> choosing =
-      std::async(std::launch::async, [&] { return chooseTour(options, scene->city, console, code, tours); });
+      std::async(std::launch::async, [&] { return chooseTour(options, *scene->city, console, code, tours); });
 
   // The scene graph and the renderer; the city's buffers reach the card with the first frame.
   screen.context->makeCurrent();
-  viewer::Drawing drawing{scene->city, *screen.context, scene->knobs, {}, {}, {}};
-  drawing.planner = std::make_unique<plan::Planner>(scene->city, scene->knobs);
+  viewer::Drawing drawing{scene->city.get(), *screen.context, scene->knobs, {}, {}, {}};
+  drawing.planner = std::make_unique<plan::Planner>(*scene->city, scene->knobs);
   drawing.scene = std::make_unique<scenegraph::Scene>(
-      scene->city, scene->knobs, diagnostics,
+      *scene->city, scene->knobs, diagnostics,
       [&](std::string_view stage, double fraction) {
         console.progress(stage, fraction);
         showLoading();
@@ -370,6 +397,16 @@ int walk(const WalkOptions& options, const Surroundings& surroundings) {
                                     options.size));
     live->install(hooks);
     guide.lookInto(*live);
+  }
+  // Changes of rules show while one walks.
+  std::optional<Reload> reload;
+  if (visit && !scene->ownFiles.empty()) {
+    reload.emplace(*scene, options.scene, surroundings.dataFolder);
+    hooks.pause = [&, before = std::move(hooks.pause)] {
+      before();
+      if (std::optional<Rebuilt> rebuilt = reload->poll(drawing.knobs))
+        showRebuilt(std::move(*rebuilt), *scene, drawing, *live, *visit, console);
+    };
   }
   const std::vector<viewer::FrameRecord> records = viewer::runFrames(stage, hooks);
   console.progressDone();

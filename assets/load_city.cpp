@@ -10,6 +10,7 @@
 #include <iterator>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <sstream>
 
 #include "assets/cache/blob_cache.hpp"
@@ -23,6 +24,7 @@
 #include "assets/import/read_file.hpp"
 #include "assets/norvic/norvic.hpp"
 #include "assets/scene/apply_scene.hpp"
+#include "assets/styles/styles.hpp"
 
 namespace vicus::assets {
 namespace {
@@ -72,6 +74,50 @@ std::string resolve(const SceneDescription& scene, const LoadOptions& options, c
   return beside.string();
 }
 
+/// Where a file of rules lies: beside the description, else where other files of the scene do.
+std::string resolveRules(const SceneDescription& scene, const LoadOptions& options, const std::string& rules) {
+  if (!rules.ends_with(".rules") || scene.file.empty() || fs::path(rules).is_absolute()) return rules;
+  std::error_code error;
+  const fs::path beside = fs::path(scene.file).parent_path() / rules;
+  return fs::exists(beside, error) ? beside.lexically_normal().string() : resolve(scene, options, rules);
+}
+
+/// All style rules of a scene, those of its sources first.
+std::vector<StyleRule*> styleRulesOf(SceneDescription& scene) {
+  std::vector<StyleRule*> all;
+  for (SceneSource& s : scene.sources)
+    for (StyleRule& rule : s.styles) all.push_back(&rule);
+  for (StyleRule& rule : scene.styles) all.push_back(&rule);
+  return all;
+}
+
+/// The user's own files of rules that a scene names, each once.
+std::vector<std::string> ownRulesOf(const SceneDescription& scene) {
+  std::set<std::string> files;
+  const auto add = [&](const std::vector<StyleRule>& rules) {
+    for (const StyleRule& rule : rules)
+      if (rule.rules.ends_with(".rules")) files.insert(rule.rules);
+  };
+  add(scene.styles);
+  for (const SceneSource& s : scene.sources) add(s.styles);
+  return {files.begin(), files.end()};
+}
+
+/// Whether the rules have the parameters that the scene sets. Rules that cannot be read have their say later.
+bool checkParameters(SceneDescription& scene, city::Diagnostics& diagnostics) {
+  bool good = true;
+  for (const StyleRule* rule : styleRulesOf(scene)) {
+    if (rule->parameters.empty()) continue;
+    city::Diagnostics unheard;
+    const std::optional<facade::Style> style = loadStyle(rule->rules, unheard);
+    if (!style) continue;
+    for (const StyleParameter& p : rule->parameters)
+      if (const std::string problem = parameterProblem(*style, p.name, p.value); !problem.empty())
+        diagnostics.error(scene.file, p.place, problem), good = false;
+  }
+  return good;
+}
+
 /// What the command line names, as a scene description would.
 SceneDescription sceneOfArguments(std::span<const std::string> inputs) {
   SceneDescription scene;
@@ -100,6 +146,8 @@ std::optional<SceneDescription> sceneOf(std::span<const std::string> inputs, con
       scene = parseScene(std::move(text).str(), *description, diagnostics);
   }
   if (!scene) return std::nullopt;
+  for (StyleRule* rule : styleRulesOf(*scene)) rule->rules = resolveRules(*scene, options, rule->rules);
+  if (!checkParameters(*scene, diagnostics)) return std::nullopt;
   for (SceneSource& s : scene->sources) {
     s.file = resolve(*scene, options, s.file);
     // The command line's wishes hold for all sources that have none of their own.
@@ -193,6 +241,8 @@ CachePlace cachePlaceOf(std::span<const std::string> inputs, const SceneDescript
   for (const SceneMonument& m : scene.monuments) files.push_back(m.file);
   for (const auto* list : {&scene.avatars.characters, &scene.avatars.motions})
     files.insert(files.end(), list->begin(), list->end());
+  const std::vector<std::string> rules = ownRulesOf(scene);
+  files.insert(files.end(), rules.begin(), rules.end());
   for (const std::string& file : inputs) key.addText(fs::absolute(file, error).string());
   key.addNumber(files.size());
   for (const std::string& file : files) key.addText(fs::absolute(file, error).string());
@@ -227,7 +277,7 @@ LoadResult loadThroughCache(std::span<const std::string> inputs, const SceneDesc
   LoadResult result;
   if (const auto bytes = file->cache.read(kKind, place.hash, kBuilderVersion)) {
     if (auto cached = decodeCity(*bytes))
-      result = {std::move(cached->city), std::move(cached->diagnostics), true, {}, {}};
+      result.city = std::move(cached->city), result.diagnostics = std::move(cached->diagnostics), result.fromCache = true;
     else
       file->diagnostics.warn(place.file.string(), "", "the city in the cache is damaged and is made anew");
   }
@@ -271,6 +321,8 @@ LoadResult loadCity(std::span<const std::string> inputs, const LoadOptions& opti
     if (!scene) return result;
     result = options.cacheFolder.empty() ? loadScene(*scene, options) : loadThroughCache(inputs, *scene, options);
     result.settings = scene->knobs;
+    result.rulesFiles = ownRulesOf(*scene);
+    result.descriptionFile = scene->file;
     return result;
   } catch (const std::exception& e) {
     result.city.reset();

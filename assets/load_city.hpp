@@ -38,7 +38,9 @@ struct LoadResult {
   /// Where the city is written to the cache: that goes on while it is shown. Gives what there is to say of it; waited
   /// for where it is dropped.
   std::future<city::Diagnostics> cached;
-  std::vector<SceneSetting> settings;  ///< of knobs, as the scene description gives them
+  std::vector<SceneSetting> settings;   ///< of knobs, as the scene description gives them
+  std::vector<std::string> rulesFiles;  ///< the user's own files of rules (*.rules) that its houses follow
+  std::string descriptionFile;          ///< the scene description; empty where there is none
 };
 
 /// Inputs are `norvic`, `norvic:8000`, `norwich-2001`, a scene description (*.toml), or paths of data files of any kind

@@ -76,7 +76,7 @@ class Walker {
       ++made_.empty;
       return;
     }
-    if (depth > kDeepestRule || made_.scopes >= kMostScopes) {
+    if (depth > kDeepestRule || made_.scopes + kScopesForVolumes >= kMostScopes) {
       ++made_.cutShort;
       return;
     }

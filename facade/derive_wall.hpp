@@ -58,6 +58,8 @@ struct Derivation {
 /// Bounds on one house.
 constexpr uint32_t kDeepestRule = 48;
 constexpr uint64_t kMostScopes = 50000;
+/// The last of them are not for walls, so that the largest hall still gets its roof.
+constexpr uint64_t kScopesForVolumes = 1000;
 constexpr uint32_t kMostRepeats = 1000;
 /// Scopes smaller than this on a side are empty: metres.
 constexpr double kSmallestScope = 1e-4;

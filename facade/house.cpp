@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "city/random.hpp"
 #include "facade/outline.hpp"
 #include "facade/roof_mesh.hpp"
+#include "facade/tower.hpp"
 
 namespace vicus::facade {
 namespace {
@@ -32,6 +34,11 @@ double neighbourAt(const Lot& lot, size_t r, size_t e) {
   return std::isnan(lot.neighbours[r][e]) ? -INFINITY : lot.neighbours[r][e];
 }
 
+double groundAt(const Lot& lot, size_t r, size_t e) {
+  if (r >= lot.ground.size() || e >= lot.ground[r].size() || std::isnan(lot.ground[r][e])) return lot.bottom;
+  return lot.ground[r][e];
+}
+
 bool isParty(const Lot& lot, size_t r, size_t e) {
   return neighbourAt(lot, r, e) > lot.bottom;
 }
@@ -47,6 +54,9 @@ struct Volume {
 /// Party walls start so far below the neighbour's eaves that no gap shows: metres.
 constexpr double kPartyOverlap = 0.3;
 
+/// So much of a wall stands over the ground for its rules, however high that rises: metres.
+constexpr double kLeastOverGround = 0.5;
+
 class Builder {
  public:
   Builder(BuildingBuilder& builder, const StyleInUse& use, const Lot& lot, const HouseFacts& facts, Derivation& made)
@@ -54,6 +64,7 @@ class Builder {
         use_(use),
         style_(*use.style),
         lot_(lot),
+        facts_(facts),
         house_(*use.style, facts, use.parameters),
         surrounding_(house_.surrounding),
         made_(made),
@@ -105,6 +116,13 @@ class Builder {
       case Operator::Jetty:
         offset(o, volume, index, seed, depth);
         break;
+      case Operator::LeanTo:
+        leanTo(o, volume, index, seed, depth);
+        break;
+      case Operator::Tower:
+      case Operator::Turrets:
+        towers(o, volume, seed, depth);
+        break;
       case Operator::Comp:
         faces(o, volume, index, seed, depth);
         break;
@@ -142,31 +160,104 @@ class Builder {
     }
   }
 
-  /// Moves free walls (of a jetty only fronts) along their normals; the volume stays as it is where that would make
-  /// its outline cross itself.
-  void offset(const Operation& o, const Volume& volume, uint32_t index, uint32_t seed, uint32_t depth) {
-    const double distance = std::clamp(number(o, 0), -20.0, 5.0);
+  /// The volume with its free walls (or only fronts) moved along their normals; nothing where that would make its
+  /// outline cross itself.
+  std::optional<Volume> movedOut(const Volume& volume, double distance, bool onlyFronts) const {
     Volume moved = volume;
     for (size_t r = 0; r < volume.rings.size(); ++r) {
       const Ring& ring = volume.rings[r];
       const size_t n = ring.size();
       std::vector<double> by(n, 0);
       for (size_t e = 0; e < n; ++e)
-        if (!isParty(lot_, r, e) && (o.kind == Operator::Offset || (r == 0 && faces_[r][e] == Face::Front)))
-          by[e] = distance;
+        if (!isParty(lot_, r, e) && (!onlyFronts || (r == 0 && faces_[r][e] == Face::Front))) by[e] = distance;
       for (size_t i = 0; i < n; ++i) moved.rings[r][i] = movedCorner(ring, by, i);
       for (size_t i = 0; i < n; ++i) {
         const dvec2 a = ring[i], b = ring[(i + 1) % n], c = moved.rings[r][(i + 1) % n], d = moved.rings[r][i];
         // Neither may the wall turn round nor the strip between it and its old place twist.
         const bool twisted = cross(b - a, c - a) * cross(c - a, d - a) < 0;
-        if (twisted || !(glm::dot(b - a, c - d) > 0.05 * glm::dot(b - a, b - a)))
-          return apply(o.rules[0], volume, index, 1, hash32(seed, 1), depth + 1);
+        if (twisted || !(glm::dot(b - a, c - d) > 0.05 * glm::dot(b - a, b - a))) return std::nullopt;
       }
     }
-    if (!isSimple(moved.rings)) return apply(o.rules[0], volume, index, 1, hash32(seed, 1), depth + 1);
-    addRim(volume, moved, moved.bottom);
-    if (!moved.highest) addRim(moved, volume, moved.top);
-    apply(o.rules[0], moved, index, 1, hash32(seed, 1), depth + 1);
+    if (!isSimple(moved.rings)) return std::nullopt;
+    // A court may not have grown past the walls around it.
+    for (size_t r = 1; r < moved.rings.size(); ++r)
+      if (!isInside(moved.rings[0], moved.rings[r][0])) return std::nullopt;
+    return moved;
+  }
+
+  /// Where the walls cannot move the volume stays as it is.
+  void offset(const Operation& o, const Volume& volume, uint32_t index, uint32_t seed, uint32_t depth) {
+    const std::optional<Volume> moved =
+        movedOut(volume, std::clamp(number(o, 0), -20.0, 5.0), o.kind == Operator::Jetty);
+    if (moved) {
+      addRim(volume, *moved, moved->bottom);
+      if (!moved->highest) addRim(*moved, volume, moved->top);
+    }
+    apply(o.rules[0], moved.value_or(volume), index, 1, hash32(seed, 1), depth + 1);
+  }
+
+  /// The free walls stand back behind a slope, the volume begins over it. Where there is no room it stays as it is.
+  void leanTo(const Operation& o, const Volume& volume, uint32_t index, uint32_t seed, uint32_t depth) {
+    const double distance = std::clamp(number(o, 0), 0.0, 20.0), rise = std::clamp(number(o, 1), 0.0, 20.0);
+    std::optional<Volume> moved;
+    if (distance > 0.05 && volume.top - volume.bottom > rise + 0.1) moved = movedOut(volume, -distance, false);
+    if (!moved) return apply(o.rules[0], volume, index, 1, hash32(seed, 1), depth + 1);
+    const PaintLook& covering = use_.looks[o.paints[0]];
+    const PaintLook& plain = use_.looks[style_.plainPaint];
+    moved->bottom += rise, moved->below = 0;
+    builder_.beginLevel(static_cast<float>(volume.bottom), static_cast<float>(moved->bottom));
+    for (size_t r = 0; r < volume.rings.size(); ++r)
+      for (size_t e = 0; e < volume.rings[r].size(); ++e) {
+        const size_t k = (e + 1) % volume.rings[r].size();
+        const dvec3 a(volume.rings[r][e], volume.bottom), b(volume.rings[r][k], volume.bottom),
+            c(moved->rings[r][k], moved->bottom), d(moved->rings[r][e], moved->bottom);
+        const dvec3 normal = glm::cross(b - a, c - a) + glm::cross(c - a, d - a);
+        if (!(glm::length(normal) > 1e-9)) continue;
+        // What stands at a neighbour stays upright.
+        const bool upright = isParty(lot_, r, e);
+        const PaintLook& look = upright ? plain : covering;
+        builder_.beginPlane(upright ? PlaneKind::Wall : PlaneKind::Roof, look.material,
+                            glm::vec3(glm::normalize(normal)));
+        const dvec3 along = glm::normalize(b - a), up = glm::normalize(glm::cross(normal, along));
+        std::vector<glm::vec3> corners;
+        for (const dvec3& p : {a, b, c, d})
+          if (corners.empty() || (glm::vec3(p) != corners.back() && glm::vec3(p) != corners.front()))
+            corners.emplace_back(p);
+        builder_.addConvex(corners, glm::vec3(along), glm::vec3(up), look.material);
+      }
+    if (!moved->highest) addRim(*moved, volume, moved->top);
+    apply(o.rules[0], *moved, index, 1, hash32(seed, 1), depth + 1);
+  }
+
+  /// Each tower is a house of its own by the same choices; its underside closes it.
+  void towers(const Operation& o, const Volume& volume, uint32_t seed, uint32_t depth) {
+    const double size = std::clamp(number(o, 0), 0.0, 100.0), height = std::clamp(number(o, 1), 0.0, 500.0);
+    if (!(height > kSmallestScope)) return;
+    std::vector<Ring> rings;
+    if (o.kind == Operator::Tower) {
+      if (std::optional<Ring> ring = endTower(volume.rings[0], size)) rings.push_back(std::move(*ring));
+    } else if (size >= 0.5) {
+      std::vector<uint8_t> party;
+      for (size_t e = 0; e < volume.rings[0].size(); ++e) party.push_back(isParty(lot_, 0, e) ? 1 : 0);
+      rings = cornerTurrets(volume.rings[0], party, size);
+    }
+    for (uint32_t i = 0; i < rings.size(); ++i) {
+      Lot lot;
+      lot.rings = {rings[i]};
+      lot.bottom = lot_.bottom, lot.foundation = lot_.foundation;
+      HouseFacts facts = facts_;
+      facts.height = height, facts.width = glm::length(rings[i][1] - rings[i][0]);
+      facts.area = facts.width * facts.width, facts.corners = 4;
+      Builder tower(builder_, use_, lot, facts, made_);
+      Volume body;
+      body.rings = lot.rings, body.bottom = lot.bottom, body.top = lot.bottom + height, body.below = lot.foundation;
+      tower.apply(o.rules[0], body, i, static_cast<uint32_t>(rings.size()), hash32(seed, i + 1), depth + 1);
+      const PaintLook& look = use_.looks[style_.plainPaint];
+      builder_.beginPlane(PlaneKind::Floor, look.material, {0, 0, -1}, false);
+      std::array<glm::vec3, 4> corners;
+      for (size_t k = 0; k < 4; ++k) corners[k] = glm::vec3(dvec3(rings[i][3 - k], lot.bottom - lot.foundation));
+      builder_.addConvex(corners, {1, 0, 0}, {0, -1, 0}, look.material);
+    }
   }
 
   /// The level strips between two outlines of one house: what the upper one hangs over, or stands back from.
@@ -219,6 +310,13 @@ class Builder {
       const double start = neighbourAt(lot_, r, e) - kPartyOverlap;
       if (start > foot - below) below = std::max(0.0, foot - start), foot = std::max(foot, start);
       if (!(volume.top - foot > kPartyOverlap + 0.05)) return;
+    }
+    // On a slope a wall's ground floor stands on the highest ground along it, so that no window sinks into the ground
+    // and none hangs a storey above it.
+    if (face != Face::Party && (volume.below > 0 || groundAt(lot_, r, e) > foot)) {
+      const double lowest = foot - below;
+      foot = std::clamp(groundAt(lot_, r, e), lowest, std::max(lowest, volume.top - kLeastOverGround));
+      below = foot - lowest;
     }
     const dvec2 along = (b - a) / length;
     WallFrame frame;
@@ -325,6 +423,7 @@ class Builder {
   const StyleInUse& use_;
   const Style& style_;
   const Lot& lot_;
+  const HouseFacts facts_;
   StyledHouse house_;
   Surrounding surrounding_;
   Derivation& made_;
@@ -336,14 +435,21 @@ class Builder {
 
 }  // namespace
 
+/// How much a wall counts beside a party wall when the front is looked for: terraces are up to three times as deep as a
+/// house is wide.
+constexpr double kFrontInRow = 3;
+
 std::vector<std::vector<Face>> facesOf(const Lot& lot) {
   std::vector<std::vector<Face>> faces;
   dvec2 front(0, -1);
   double longest = -INFINITY;
   for (size_t e = 0; !lot.rings.empty() && e < lot.rings[0].size(); ++e) {
     const dvec2 d = lot.rings[0][(e + 1) % lot.rings[0].size()] - lot.rings[0][e];
-    // Even where neighbours stand all round there is a side that was meant as the front.
-    const double length = glm::length(d) - (isParty(lot, 0, e) ? 1e6 : 0);
+    // Even where neighbours stand all round there is a side that was meant as the front. The end house of a row looks
+    // at the street with the others: its front adjoins a party wall, its long free flank does not.
+    const size_t n = lot.rings[0].size();
+    const bool inRow = isParty(lot, 0, (e + n - 1) % n) || isParty(lot, 0, (e + 1) % n);
+    const double length = glm::length(d) * (inRow ? kFrontInRow : 1) - (isParty(lot, 0, e) ? 1e6 : 0);
     if (glm::length(d) > 0 && length > longest) longest = length, front = dvec2(d.y, -d.x) / glm::length(d);
   }
   for (size_t r = 0; r < lot.rings.size(); ++r) {

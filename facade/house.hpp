@@ -20,6 +20,8 @@ struct Lot {
   std::vector<Ring> rings;                      ///< outer counter-clockwise, holes clockwise, simple
   std::vector<std::vector<double>> neighbours;  ///< for each ring and edge: height up to which a neighbour stands
                                                 ///< against it; −infinity or NaN: none. May be empty
+  std::vector<std::vector<double>> ground;      ///< for each ring and edge: the highest ground along it, where its
+                                                ///< windows and doors begin; NaN: `bottom`. May be empty
   double bottom = 0;                            ///< of its walls: 0, or its underside hangs there
   double foundation = 0;                        ///< metres that its walls reach below `bottom`
   std::optional<RoofKind> roof;                 ///< where the sources state it, it takes the place of the style's
@@ -34,7 +36,8 @@ struct StyleInUse {
   std::vector<double> parameters;  ///< one for each of the style's; empty: as the style says
 };
 
-/// The side of the house that each edge is on. The longest free edge of the outer ring is the front; edges that look
+/// The side of the house that each edge is on. The longest free edge of the outer ring is the front, one beside a party
+/// wall counting three times; edges that look
 /// the same way to 60° are fronts too, those that look the other way backs, others sides; holes have backs.
 std::vector<std::vector<Face>> facesOf(const Lot& lot);
 

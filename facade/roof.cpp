@@ -12,6 +12,11 @@
 namespace vicus::facade {
 namespace {
 
+/// Metres that a roof of this pitch rises at most, where shallow ones rise to `shallow`.
+double highestFor(double pitch, double shallow) {
+  return pitch >= kSteepPitch ? std::max(kHighestSteepRoof, shallow) : shallow;
+}
+
 using glm::dvec2;
 using glm::dvec3;
 
@@ -139,8 +144,11 @@ RoofShape gableOverFour(const Ring& ring, const std::vector<uint8_t>& party, con
   const double width = (length((s + 1) % 4) + length((s + 3) % 4)) / 2;
   RoofShape roof;
   roof.built = request.form;
-  roof.height = request.rise > 0 ? request.rise : std::min(kHighestRoof * 1.6, width / 2 * std::tan(request.pitch));
-  if (request.form == RoofKind::Gable && !(request.rise > 0)) roof.height = std::min(roof.height, kHighestRoof);
+  roof.height = request.rise > 0
+                    ? request.rise
+                    : std::min(highestFor(request.pitch, 1.6 * kHighestRoof), width / 2 * std::tan(request.pitch));
+  if (request.form == RoofKind::Gable && !(request.rise > 0))
+    roof.height = std::min(roof.height, highestFor(request.pitch, kHighestRoof));
   // Half-hips cut the gables' tips off: the ridge ends that far inside.
   const bool cutTips = request.form == RoofKind::HalfHip;
   constexpr double kTip = 0.4;
@@ -214,7 +222,10 @@ RoofShape pyramidOver(const Ring& ring, const RoofRequest& request) {
   }
   RoofShape roof;
   roof.built = RoofKind::Pyramid;
-  roof.height = request.rise > 0 ? request.rise : std::min(kHighestRoof, run * std::tan(request.pitch));
+  roof.height = request.rise > 0
+                    ? request.rise
+                    : std::min(request.pitch >= kSpirePitch ? kHighestSpire : highestFor(request.pitch, kHighestRoof),
+                               run * std::tan(request.pitch));
   for (uint32_t i = 0; i < ring.size(); ++i)
     roof.surfaces.push_back(
         {0, i, false, {dvec3(ring[i], 0), dvec3(ring[(i + 1) % ring.size()], 0), dvec3(middle, roof.height)}});
@@ -259,7 +270,7 @@ RoofShape roofOver(std::span<const Ring> rings, std::span<const std::vector<uint
       twoSlopes || request.form == RoofKind::Shed || request.form == RoofKind::Pyramid ? RoofKind::Hip : request.form;
   const bool steep = roof.built != RoofKind::Hip;
   Profile profile = profileOf(roof.built, std::tan(request.pitch), distances->reach);
-  const double top = profile.back().y, most = steep ? kHighestSteepRoof : kHighestRoof;
+  const double top = profile.back().y, most = steep ? kHighestSteepRoof : highestFor(request.pitch, kHighestRoof);
   const double scale = request.rise > 0 ? request.rise / top : std::min(1.0, most / top);
   for (dvec2& p : profile) p.y *= scale;
   raise(distances->pieces, profile, roof);

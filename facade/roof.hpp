@@ -11,8 +11,11 @@ namespace vicus::facade {
 
 /// Roofs rise at most this far above the eaves unless a height is asked for: metres.
 constexpr double kHighestRoof = 4.5;
-/// Roofs of steep forms (gambrel, mansard, dome): metres.
+/// Roofs of steep forms (gambrel, mansard, dome) and of steep pitches: metres.
 constexpr double kHighestSteepRoof = 9;
+/// Pitches from here on are meant: radians (50°). Pyramids from 60° on are spires.
+constexpr double kSteepPitch = 0.872, kSpirePitch = 1.047;
+constexpr double kHighestSpire = 45;
 /// The widest span that gets a pitched roof, by half: metres.
 constexpr double kWidestSlope = 12;
 

@@ -16,6 +16,8 @@ constexpr Slot kAttachScope[] = {Slot::Shape, Slot::Number, Slot::Number, Slot::
 constexpr Slot kAttachTexture[] = {Slot::Shape, Slot::Mapping, Slot::Box, Slot::Number, Slot::Number, Slot::Textures};
 constexpr Slot kFaces[] = {Slot::Faces};
 constexpr Slot kRoof[] = {Slot::Form, Slot::Number, Slot::Number, Slot::Texture, Slot::Rule};
+constexpr Slot kLeanTo[] = {Slot::Number, Slot::Number, Slot::Texture, Slot::Rule};
+constexpr Slot kTower[] = {Slot::Number, Slot::Number, Slot::Rule};
 constexpr Slot kChimney[] = {Slot::Number, Slot::Number, Slot::Number, Slot::Texture};
 constexpr Slot kDormer[] = {Slot::Number, Slot::Number, Slot::Number, Slot::Texture, Slot::Rule};
 
@@ -37,6 +39,11 @@ constexpr OperatorSignature kSignatures[] = {
     {Operator::Comp, "Comp", kFaces, "Gives each face of a volume the rule of its kind."},
     {Operator::Offset, "Offset", kNumberRule, "Moves the free walls of a volume outward by so many metres, or inward."},
     {Operator::Jetty, "Jetty", kNumberRule, "Moves the front of a volume outward; its underside shows."},
+    {Operator::LeanTo, "LeanTo", kLeanTo,
+     "Draws the free walls of a volume in behind a sloping roof: metres inward, metres up, covering."},
+    {Operator::Tower, "Tower", kTower,
+     "Stands a square tower before an end of the volume: width, height over the ground, rule of its volume."},
+    {Operator::Turrets, "Turrets", kTower, "Stands a square turret on each free right-angled corner, likewise."},
     {Operator::Roof, "Roof", kRoof, "Covers a volume: form, pitch, overhang, covering, rule of its gables."},
     {Operator::Chimney, "Chimney", kChimney,
      "Puts a stack beside the roof's highest point: width, depth, height over "
@@ -52,9 +59,9 @@ static_assert(std::size(kFaceNames) == static_cast<size_t>(Face::Count));
 constexpr std::string_view kRoofNames[] = {"gable",   "gable_front", "hip",     "half_hip", "gambrel",
                                            "mansard", "shed",        "pyramid", "flat",     "dome"};
 static_assert(std::size(kRoofNames) == static_cast<size_t>(RoofKind::Count));
-constexpr std::string_view kShapeNames[] = {"panel",    "block", "opening",    "cornice", "pediment",
-                                            "pilaster", "brace", "brace_back", "awning",  "balcony",
-                                            "leaf",     "steps", "bell"};
+constexpr std::string_view kShapeNames[] = {"panel",    "block", "opening",    "cornice",  "pediment",
+                                            "pilaster", "brace", "brace_back", "awning",   "balcony",
+                                            "leaf",     "steps", "bell",       "buttress", "battlement"};
 static_assert(std::size(kShapeNames) == static_cast<size_t>(Shape::Count));
 constexpr std::string_view kMaskNames[] = {"noise", "foot", "eaves", "checker"};
 static_assert(std::size(kMaskNames) == static_cast<size_t>(Mask::Count));

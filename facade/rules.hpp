@@ -97,6 +97,9 @@ enum class Operator : uint8_t {
   Comp,
   Offset,
   Jetty,
+  LeanTo,
+  Tower,
+  Turrets,
   Roof,
   Chimney,
   Dormer,
@@ -115,19 +118,21 @@ enum class RoofKind : uint8_t { Gable, GableFront, Hip, HalfHip, Gambrel, Mansar
 
 /// Shapes that AttachScope fits into a scope; shapes.hpp draws them.
 enum class Shape : uint8_t {
-  Panel,      ///< a flat picture before the wall
-  Block,      ///< a box: lintels, quoins, beams
-  Opening,    ///< a hole: reveal, pane at its back
-  Cornice,    ///< three courses, each reaching farther out
-  Pediment,   ///< a triangle over a window
-  Pilaster,   ///< a shaft between base and capital
-  Brace,      ///< a beam from the lower left to the upper right corner
-  BraceBack,  ///< from the lower right to the upper left
-  Awning,     ///< a slope over a shop
-  Balcony,    ///< a slab with a railing
-  Leaf,       ///< a cut-out card
-  Steps,      ///< a stepped gable that stands before the roof and over it
-  Bell,       ///< a bell gable
+  Panel,       ///< a flat picture before the wall
+  Block,       ///< a box: lintels, quoins, beams
+  Opening,     ///< a hole: reveal, pane at its back
+  Cornice,     ///< three courses, each reaching farther out
+  Pediment,    ///< a triangle over a window
+  Pilaster,    ///< a shaft between base and capital
+  Brace,       ///< a beam from the lower left to the upper right corner
+  BraceBack,   ///< from the lower right to the upper left
+  Awning,      ///< a slope over a shop
+  Balcony,     ///< a slab with a railing
+  Leaf,        ///< a cut-out card
+  Steps,       ///< a stepped gable that stands before the roof and over it
+  Bell,        ///< a bell gable
+  Buttress,    ///< a pier in two stages with sloping tops
+  Battlement,  ///< a parapet on a wall's top, with gaps: it stands over the scope
   Count
 };
 

@@ -32,13 +32,20 @@ class Item {
     const glm::vec3 corners[] = {at(a), at(b), at(c)};
     builder_.addConvex(corners, glm::vec3(frame_.along), glm::vec3(frame_.up), look_.material);
   }
-  enum Faces : unsigned { Top = 1, Bottom = 2, Sides = 4, All = 7 };
-  /// A box on the wall without its back.
+  /// A triangle that stands out of the wall.
+  void upright(Point a, Point b, Point c) {
+    const glm::vec3 corners[] = {at(a), at(b), at(c)};
+    builder_.addConvex(corners, glm::vec3(frame_.normal()), glm::vec3(frame_.up), look_.material);
+  }
+  enum Faces : unsigned { Top = 1, Bottom = 2, Sides = 4, All = 7, Back = 8 };
+  /// A box on the wall, without its back unless that is asked for.
   void box(const Rect& r, double from, double to, unsigned faces = All) {
     quad({r.left, r.bottom, to}, {r.right, r.bottom, to}, {r.right, r.top, to}, {r.left, r.top, to});
     if (faces & Top) quad({r.left, r.top, to}, {r.right, r.top, to}, {r.right, r.top, from}, {r.left, r.top, from});
     if (faces & Bottom)
       quad({r.left, r.bottom, from}, {r.right, r.bottom, from}, {r.right, r.bottom, to}, {r.left, r.bottom, to});
+    if (faces & Back)
+      quad({r.right, r.bottom, from}, {r.left, r.bottom, from}, {r.left, r.top, from}, {r.right, r.top, from});
     if (faces & Sides) {
       quad({r.left, r.bottom, from}, {r.left, r.bottom, to}, {r.left, r.top, to}, {r.left, r.top, from});
       quad({r.right, r.bottom, to}, {r.right, r.bottom, from}, {r.right, r.top, from}, {r.right, r.top, to});
@@ -121,6 +128,43 @@ std::vector<glm::dvec2> bellOutline(const Rect& r) {
   return out;
 }
 
+/// A pier whose two stages end in slopes.
+void addButtress(Item& item, const Rect& r, double depth) {
+  // Its profile from the foot: metres up and out.
+  const double h = r.height(), half = 0.6 * depth;
+  const glm::dvec2 profile[] = {{r.bottom, depth},
+                                {r.bottom + 0.50 * h, depth},
+                                {r.bottom + 0.60 * h, half},
+                                {r.bottom + 0.88 * h, half},
+                                {r.top, 0}};
+  for (size_t i = 0; i + 1 < std::size(profile); ++i) {
+    const glm::dvec2 a = profile[i], b = profile[i + 1];
+    item.quad({r.left, a.x, a.y}, {r.right, a.x, a.y}, {r.right, b.x, b.y}, {r.left, b.x, b.y});
+    if (b.y > 0) {
+      item.quad({r.left, a.x, 0}, {r.left, a.x, a.y}, {r.left, b.x, b.y}, {r.left, b.x, 0});
+      item.quad({r.right, a.x, a.y}, {r.right, a.x, 0}, {r.right, b.x, 0}, {r.right, b.x, b.y});
+    } else {
+      item.upright({r.left, a.x, 0}, {r.left, a.x, a.y}, {r.left, b.x, 0});
+      item.upright({r.right, a.x, a.y}, {r.right, a.x, 0}, {r.right, b.x, 0});
+    }
+  }
+}
+
+/// A breast wall on the wall's top and merlons on it, about one to 1.5 m; the scope is the band below that carries it.
+void addBattlement(Item& item, const Rect& r, double depth) {
+  constexpr double kThick = 0.35, kBreast = 0.55, kMerlon = 0.8;
+  item.box(r, 0, depth, Item::Bottom | Item::Sides);
+  const Rect breast{r.left, r.top, r.right, r.top + kBreast};
+  item.box(breast, -kThick, depth, Item::All | Item::Back);
+  const int count = std::clamp(static_cast<int>(std::lround(r.width() / 1.5)), 1, 200);
+  const double pitch = r.width() / count, side = 0.21 * pitch;
+  for (int i = 0; i < count; ++i) {
+    const double left = r.left + i * pitch;
+    item.box({left + side, breast.top, left + pitch - side, breast.top + kMerlon}, -kThick, depth,
+             Item::Top | Item::Sides | Item::Back);
+  }
+}
+
 void addOutside(Item& item, const Attachment& a, double depth) {
   const Rect& r = a.rect;
   const double w = r.width(), h = r.height();
@@ -178,6 +222,12 @@ void addOutside(Item& item, const Attachment& a, double depth) {
       break;
     case Shape::Bell:
       addParapet(item, bellOutline(r), depth);
+      break;
+    case Shape::Buttress:
+      addButtress(item, r, depth);
+      break;
+    case Shape::Battlement:
+      addBattlement(item, r, depth);
       break;
     case Shape::Leaf:
       item.picture({r.left, r.bottom, depth}, {r.right, r.bottom, depth * 0.6}, {r.right, r.top, depth * 0.2},

@@ -38,6 +38,12 @@ void LiveView::freeze(bool frozen) {
   wantsFrozen_ = frozen;
 }
 
+void LiveView::cityChanged() {
+  frozenView_.reset();
+  stage_ = drawing_.stage();
+  told_ = features_(*drawing_.planner, drawing_.knobs);
+}
+
 void LiveView::switchPeople() {
   asked_ = KnobChange{"avatars.shown", drawing_.knobs.on("avatars.shown") ? 0.0 : 1.0};
 }

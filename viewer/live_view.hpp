@@ -31,6 +31,8 @@ class LiveView {
   /// Freezes the plan of the next frame, or thaws it.
   void freeze(bool frozen);
   bool frozen() const { return wantsFrozen_; }
+  /// The loop's drawing shows another city: between two frames. A frozen view is frozen anew.
+  void cityChanged();
   /// Shows the people from the next frame on, or no longer.
   void switchPeople();
   /// Freezes every frame's plan and shows it from this place.

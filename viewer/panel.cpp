@@ -18,26 +18,27 @@ using Colour = std::array<float, 3>;
 constexpr Colour kPaper{0.11f, 0.11f, 0.12f}, kInk{0.93f, 0.91f, 0.86f}, kQuiet{0.66f, 0.64f, 0.60f},
     kAccent{0.85f, 0.67f, 0.38f}, kRule{0.25f, 0.24f, 0.23f};
 
+std::string fontFile(const std::string& name) {
+  std::error_code error;
+  for (const char* folder : {"/usr/share/fonts", "/usr/local/share/fonts"})
+    for (std::filesystem::recursive_directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
+      if (it->path().filename() == name + ".ttf") return it->path().string();
+  return name;
+}
+
 /// The font's file, looked for once: given a name alone, OpenImageIO searches all folders of fonts for every word. The
 /// name where the file is not there.
-const std::string& font() {
-  static const std::string file = [] {
-    std::error_code error;
-    for (const char* folder : {"/usr/share/fonts", "/usr/local/share/fonts"})
-      for (std::filesystem::recursive_directory_iterator it(folder, error), end; !error && it != end;
-           it.increment(error))
-        if (it->path().filename() == "DejaVuSans.ttf") return it->path().string();
-    return std::string("DejaVuSans");
-  }();
-  return file;
+const std::string& font(bool code = false) {
+  static const std::string text = fontFile("DejaVuSans"), file = fontFile("DejaVuSansMono");
+  return code ? file : text;
 }
 
 int letters(double scale) {
   return std::max(6, static_cast<int>(std::lround(16 * scale)));
 }
 
-int widthOf(const std::string& text, int size) {
-  const OIIO::ROI roi = OIIO::ImageBufAlgo::text_size(text, size, font());
+int widthOf(const std::string& text, int size, bool code = false) {
+  const OIIO::ROI roi = OIIO::ImageBufAlgo::text_size(text, size, font(code));
   return roi.defined() ? std::max(roi.xend, 0) : 0;
 }
 
@@ -55,9 +56,9 @@ class Sheet {
     OIIO::ImageBufAlgo::fill(buffer_, {colour[0], colour[1], colour[2]}, OIIO::ROI(a.x, b.x, a.y, b.y));
   }
   /// `baseline` is the left end of the line that the letters stand on.
-  void write(glm::ivec2 baseline, const std::string& text, int letterSize, const Colour& colour) {
+  void write(glm::ivec2 baseline, const std::string& text, int letterSize, const Colour& colour, bool code = false) {
     if (!text.empty())
-      OIIO::ImageBufAlgo::render_text(buffer_, baseline.x, baseline.y, text, letterSize, font(),
+      OIIO::ImageBufAlgo::render_text(buffer_, baseline.x, baseline.y, text, letterSize, font(code),
                                       {colour[0], colour[1], colour[2]});
   }
   Picture picture() const {
@@ -96,14 +97,14 @@ Picture drawAt(std::span<const PanelLine> lines, double scale, glm::ivec2 larges
   int keyWidth = 0, textWidth = 0;
   for (const PanelLine& l : lines) {
     if (!l.key.empty()) keyWidth = std::max(keyWidth, widthOf(l.key, size) + 3 * size / 2);
-    textWidth = std::max(textWidth, widthOf(l.text, size));
+    textWidth = std::max(textWidth, widthOf(l.text, size, l.code));
   }
   const int room = std::max(largest.x - 2 * margin, 4 * size);
   textWidth = std::clamp(textWidth, 1, std::max(room - keyWidth, 2 * size));
 
   struct Row {
     std::string text, key;
-    bool heading;
+    bool heading, code;
     int top;
   };
   std::vector<Row> rows;
@@ -111,8 +112,9 @@ Picture drawAt(std::span<const PanelLine> lines, double scale, glm::ivec2 larges
   for (const PanelLine& l : lines) {
     if (l.heading && !rows.empty()) height += line / 2;
     bool first = true;
-    for (const std::string& text : broken(l.text, textWidth + (l.key.empty() ? keyWidth : 0), size)) {
-      rows.push_back({text, first ? l.key : std::string(), l.heading, height});
+    const int width = textWidth + (l.key.empty() ? keyWidth : 0);
+    for (const std::string& text : l.code ? std::vector{l.text} : broken(l.text, width, size)) {
+      rows.push_back({text, first ? l.key : std::string(), l.heading, l.code, height});
       height += line;
       first = false;
     }
@@ -125,7 +127,7 @@ Picture drawAt(std::span<const PanelLine> lines, double scale, glm::ivec2 larges
     const int base = row.top + size;
     const bool indented = columns && !row.heading;
     sheet.write({margin, base}, row.key, size, kAccent);
-    sheet.write({margin + (indented ? keyWidth : 0), base}, row.text, size, row.heading ? kQuiet : kInk);
+    sheet.write({margin + (indented ? keyWidth : 0), base}, row.text, size, row.heading ? kQuiet : kInk, row.code);
   }
   return sheet.picture();
 }

@@ -15,6 +15,7 @@ struct PanelLine {
   std::string text;
   std::string key;  ///< stands left of the text in its own column; empty: the text begins there
   bool heading = false;
+  bool code = false;  ///< a line of a file: letters of one width, never broken
 };
 
 /// The keys, mode by mode.

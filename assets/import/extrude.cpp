@@ -14,7 +14,7 @@ constexpr double kInLine = 0.03;
 /// A footprint whose corners all matter, with what stands against its edges.
 Extrusion::Part merged(const Extrusion::Part& part) {
   Extrusion::Part out = part;
-  out.polygon = {}, out.neighbours.clear();
+  out.polygon = {}, out.neighbours.clear(), out.ground.clear();
   for (size_t r = 0; r < part.polygon.rings.size(); ++r) {
     const Ring& ring = part.polygon.rings[r];
     // Edges in line are one wall where the same stands against them.
@@ -24,9 +24,19 @@ Extrusion::Part merged(const Extrusion::Part& part) {
       group.push_back(numberOf.emplace(height, static_cast<uint8_t>(numberOf.size())).first->second);
     Ring& kept = out.polygon.rings.emplace_back();
     std::vector<double>& neighbours = out.neighbours.emplace_back();
-    for (const uint32_t i : cornersOf(ring, group, kInLine)) {
+    const std::vector<uint32_t> corners = cornersOf(ring, group, kInLine);
+    for (const uint32_t i : corners) {
       kept.push_back(ring[i]);
       neighbours.push_back(part.neighbours[r][i]);
+    }
+    if (r >= part.ground.size()) continue;
+    // A wall of several edges stands on the highest ground of them all.
+    std::vector<double>& ground = out.ground.emplace_back();
+    for (size_t k = 0; k < corners.size(); ++k) {
+      const uint32_t end = corners[(k + 1) % corners.size()];
+      ground.push_back(part.ground[r][corners[k]]);
+      for (size_t i = (corners[k] + 1) % ring.size(); i != end; i = (i + 1) % ring.size())
+        ground.back() = std::max(ground.back(), part.ground[r][i]);
     }
   }
   return out;
@@ -85,6 +95,7 @@ city::BuildingGeometry extrude(const Extrusion& e, const facade::StyleInUse& sty
     }
     facade::Lot lot;
     lot.rings = part.polygon.rings, lot.neighbours = part.neighbours;
+    if (!(part.bottom > 0)) lot.ground = part.ground;
     lot.bottom = part.bottom, lot.foundation = part.bottom > 0 ? 0 : e.foundation;
     lot.roof = roofKindOf(part.roof), lot.roofRise = part.roofHeight > 0 ? part.roofHeight : 0;
     lot.facts.height = part.height - part.bottom, lot.facts.year = e.year, lot.facts.seed = e.seed;

@@ -5,6 +5,8 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "city/city.hpp"
 
@@ -49,6 +51,7 @@ struct Style {
   Finish plain = Finish::Ashlar;            ///< walls without
   Finish roof = Finish::Tile;
   bool plainStated = false, roofStated = false;
+  std::vector<std::pair<std::string, double>> parameters;  ///< of the rules, in the units that these write
 
   bool operator==(const Style&) const = default;
 };

@@ -71,6 +71,58 @@ void markNeighbours(std::vector<Extrusion>& extrusions, const std::vector<glm::d
   });
 }
 
+/// Cuts edges where corners of others lie on them, so that walls which touch along a part of their length know each
+/// other there; `extrude` joins again what stays free.
+void cutAtNeighbours(std::vector<Extrusion>& extrusions, const std::vector<glm::dvec2>& middles) {
+  constexpr double kCell = 8, kOn = 0.01, kNearCorner = 0.05;
+  const auto cellOf = [](double v) { return static_cast<int64_t>(std::floor(v / kCell)); };
+  const auto key = [](int64_t x, int64_t y) {
+    return static_cast<uint64_t>(x) * 0x9e3779b97f4a7c15ULL ^ static_cast<uint64_t>(y);
+  };
+  std::vector<std::pair<uint64_t, glm::dvec2>> corners;
+  for (size_t i = 0; i < extrusions.size(); ++i)
+    for (const Extrusion::Part& part : extrusions[i].parts)
+      for (const Ring& ring : part.polygon.rings)
+        for (const glm::dvec2& q : ring) {
+          const glm::dvec2 p = q + middles[i];
+          corners.emplace_back(key(cellOf(p.x), cellOf(p.y)), p);
+        }
+  const auto before = [](const auto& a, const auto& b) { return a.first < b.first; };
+  std::stable_sort(corners.begin(), corners.end(), before);
+  parallelFor(extrusions.size(), 256, [&](size_t i) {
+    std::vector<std::pair<double, glm::dvec2>> on;
+    for (Extrusion::Part& part : extrusions[i].parts)
+      for (Ring& ring : part.polygon.rings) {
+        Ring cut;
+        for (size_t k = 0; k < ring.size(); ++k) {
+          const glm::dvec2 a = ring[k] + middles[i], b = ring[(k + 1) % ring.size()] + middles[i];
+          const double length = glm::length(b - a);
+          cut.push_back(ring[k]);
+          constexpr double kLongest = 2000;
+          if (!(length > 2 * kNearCorner && length < kLongest)) continue;
+          const glm::dvec2 along = (b - a) / length, low = glm::min(a, b) - kOn, high = glm::max(a, b) + kOn;
+          on.clear();
+          for (int64_t y = cellOf(low.y); y <= cellOf(high.y); ++y)
+            for (int64_t x = cellOf(low.x); x <= cellOf(high.x); ++x) {
+              const auto range =
+                  std::equal_range(corners.begin(), corners.end(), std::pair(key(x, y), glm::dvec2(0)), before);
+              for (auto c = range.first; c != range.second; ++c) {
+                const double t = glm::dot(c->second - a, along);
+                const glm::dvec2 foot = a + along * t;
+                if (t > kNearCorner && t < length - kNearCorner && glm::length(c->second - foot) <= kOn)
+                  on.emplace_back(t, c->second);
+              }
+            }
+          std::sort(on.begin(), on.end(), [](const auto& p, const auto& q) { return p.first < q.first; });
+          double last = -INFINITY;
+          for (const auto& [t, p] : on)
+            if (t - last > kNearCorner) cut.push_back(p - middles[i]), last = t;
+        }
+        ring = std::move(cut);
+      }
+  });
+}
+
 /// Everything that decides a geometry, as bytes: equal where the geometries are.
 std::string keyOf(const Extrusion& e) {
   std::string key = e.use + '\n' + e.material + '\n' + e.roof + '\n';
@@ -87,6 +139,8 @@ std::string keyOf(const Extrusion& e) {
       add(part.polygon.rings[r].size());
       for (const glm::dvec2& p : part.polygon.rings[r]) add(p.x), add(p.y);
       for (const double height : part.neighbours[r]) add(height);
+      if (r < part.ground.size())
+        for (const double height : part.ground[r]) add(height);
     }
   }
   return key;
@@ -173,6 +227,23 @@ GroundUnder groundUnderAll(const city::HeightField& terrain, const Outline& o) {
   if (all.known) all.mean = sum / areas;
   if (!all.known && !o.parts.empty()) all = groundUnder(terrain, o.parts[0].polygon.rings[0]);
   return all;
+}
+
+/// The highest ground along each edge of a part that stands on it, above `base`; in steps of 0.25 m, so that equal
+/// footprints on nearly level ground remain equal.
+std::vector<std::vector<double>> groundAlong(const city::HeightField& terrain, const Polygon& polygon,
+                                             glm::dvec2 middle, double base) {
+  std::vector<std::vector<double>> out;
+  for (const Ring& ring : polygon.rings) {
+    std::vector<double>& edges = out.emplace_back();
+    for (size_t i = 0; i < ring.size(); ++i) {
+      const glm::dvec2 edge[] = {ring[i] + middle, ring[(i + 1) % ring.size()] + middle};
+      const GroundUnder under = groundUnder(terrain, edge);
+      constexpr double kStep = 0.25, kLevel = 0.05;
+      edges.push_back(under.known ? std::ceil((under.highest - base - kLevel) / kStep) * kStep + 0.0 : 0);
+    }
+  }
+  return out;
 }
 
 /// The building's form in its own frame, whose origin lies at `middle` and at the height `base`.
@@ -278,8 +349,13 @@ void addFootprints(Assembly& a, std::vector<Outline>& outlines) {
     const Style style = styleFor(extrusions[i].material, extrusions[i].seed);
     extrusions[i].style = a.styles.use(a, styled(style, outlines[i].source->styles, outlines[i].footprint->attributes));
   }
+  cutAtNeighbours(extrusions, middles);
   markNeighbours(extrusions, middles, bases);
-  parallelFor(outlines.size(), 64, [&](size_t i) { keys[i] = keyOf(extrusions[i]); });
+  parallelFor(outlines.size(), 64, [&](size_t i) {
+    for (Extrusion::Part& p : extrusions[i].parts)
+      if (a.city.terrain && !(p.bottom > 0)) p.ground = groundAlong(*a.city.terrain, p.polygon, middles[i], bases[i]);
+    keys[i] = keyOf(extrusions[i]);
+  });
 
   // One geometry for each distinct footprint.
   std::unordered_map<std::string_view, uint32_t> typeOf;

@@ -35,6 +35,7 @@ Style styled(Style style, const std::vector<StyleRule>& rules, const city::Attri
       continue;
     if (rule.facade) style.facade = *rule.facade, style.rules = rulesFor(*rule.facade);
     if (!rule.rules.empty()) style.rules = rule.rules;
+    for (const StyleParameter& p : rule.parameters) style.parameters.emplace_back(p.name, p.value);
     if (rule.plain) style.plain = *rule.plain, style.plainStated = true;
     if (rule.roof) style.roof = *rule.roof, style.roofStated = true;
     break;

@@ -21,10 +21,20 @@ struct StyleCondition {
   bool operator==(const StyleCondition&) const = default;
 };
 
+/// A number that a scene gives to a parameter of rules.
+struct StyleParameter {
+  std::string name;
+  double value = 0;   ///< in the unit that the rules write behind the parameter's own value
+  std::string place;  ///< in the description: "line 3, column 1"
+
+  bool operator==(const StyleParameter&) const = default;
+};
+
 /// What buildings are finished with for which all conditions hold; what is not named stays as it was.
 struct StyleRule {
   std::vector<StyleCondition> where;
   std::string rules;  ///< a style by name, or a file of rules; empty: as it was, or what `facade` stands for
+  std::vector<StyleParameter> parameters;  ///< of `rules`
   std::optional<Finish> facade, plain, roof;
 
   bool operator==(const StyleRule&) const = default;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 
 #include "assets/import/assembly.hpp"
 #include "assets/materials/materials.hpp"
@@ -22,7 +23,9 @@ facade::PaintLook lookOf(Assembly& a, const facade::Paint& paint, const std::str
   if (!isBuiltin(texture)) {
     if (texture.find_first_of("./") != std::string::npos) {
       material = builtinMaterial("plaster");
-      material.name = material.source = texture;
+      // A picture lies beside the rules that name it.
+      const std::filesystem::path file = std::filesystem::path(style).parent_path() / texture;
+      material.name = material.source = style.ends_with(".rules") ? file.lexically_normal().string() : texture;
     } else {
       a.diagnostics.warn(style, "", "there is no texture " + texture + "; plaster is shown");
     }
@@ -52,6 +55,7 @@ size_t StylesInUse::use(Assembly& a, const Style& style) {
   const facade::Style& rules = *styles_.back();
   facade::StyleInUse inUse;
   inUse.style = &rules;
+  inUse.parameters = parametersOf(rules, style.parameters);
   const std::string plain = rules.paints[rules.plainPaint].texture;
   constexpr std::array<std::string_view, 4> kCoverings = {"tile", "slate", "thatch", "lead"};
   for (facade::Paint paint : rules.paints) {

@@ -61,6 +61,8 @@ constexpr std::array kRecipes{
     Recipe{"window-sash", {1, 1}, 0.05F, 0.30F, recipes::windowSash},
     Recipe{"window-leaded", {1, 1}, 0.10F, 0.30F, recipes::windowLeaded},
     Recipe{"window-arched", {1, 1}, 0.15F, 0.20F, recipes::windowArched},
+    Recipe{"window-tracery", {1, 1}, 0.06F, 0.12F, recipes::windowTracery},
+    Recipe{"portal", {1, 1}, 0.10F, 0.03F, recipes::portal},
     Recipe{"door-panelled", {1, 1}, 0.50F, 0.06F, recipes::doorPanelled},
     Recipe{"door-arched", {1, 1}, 0.40F, 0.05F, recipes::doorArched},
     Recipe{"shop-front", {1, 1}, 0.60F, 0.12F, recipes::shopFront},

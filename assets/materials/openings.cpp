@@ -216,6 +216,67 @@ Image windowLeaded() {
   return finish(s, {0.32F, 0.18F, 5});
 }
 
+Image windowTracery() {
+  // Two lancets and a foiled circle under a pointed arch, quarries of old glass in lead.
+  Surface s = panes(1266, 0.7F);
+  for (int k = -12; k < 24; ++k)
+    for (const float lean : {1.0F, -1.0F}) {
+      const float from = static_cast<float>(k) * 42.7F;
+      overStroke(kFull, glm::vec2(from, 0), glm::vec2(from + lean * 300, kTexels), 3, 3,
+                 [&](size_t i, float cover, float) {
+                   s.texels[i] = Texel{glm::mix(s.texels[i].colour, srgb(0x3c3d3e), cover), -2};
+                 });
+    }
+  const Field fine = fbm(kFull, {50, 50}, 3, 0.7F, 1268);
+  const glm::vec3 stone = srgb(0xc6bba2);
+  constexpr float kSpring = 0.62F;
+  // Distance inside a pointed arch of half-width `half` over `x`, whose two arcs begin at `spring`; negative: outside.
+  const auto inArch = [](float dx, float dy, float half) {
+    if (dy < 0) return half - glm::abs(dx);
+    const float r = 2 * half;
+    return r - glm::length(glm::vec2(glm::abs(dx) + half, dy * 1.0F));
+  };
+  repaint(s, part(0, 0, 1, 1), [&](int px, int py, const Texel& under, int) {
+    const float x = static_cast<float>(px) / kTexels - 0.5F, y = static_cast<float>(py) / kTexels;
+    // The picture is usually two and a half times as high as wide: heights count so in widths.
+    const float up = (y - kSpring) * 2.2F;
+    const float outer = inArch(x, up, 0.47F);
+    const float lancet = inArch(glm::abs(x) - 0.235F, (y - 0.56F) * 2.2F, 0.19F);
+    const glm::vec2 fromEye(x, (y - 0.79F) * 2.2F);
+    const float lobe = glm::length(fromEye) > 0 ? std::atan2(fromEye.y, fromEye.x) : 0.0F;
+    const float eye = 0.12F + 0.03F * glm::abs(std::cos(2 * lobe)) - glm::length(fromEye);
+    const float open = glm::min(outer - 0.035F, glm::max(lancet, eye));
+    if (open > 0.012F) return under;
+    const float round = glm::clamp(1 - open / 0.012F, 0.0F, 1.0F);
+    const float edge = outer > -0.02F && outer < 0.035F ? 0.88F : 1.0F;
+    return Texel{stone * edge * (0.72F + 0.28F * round) * (1 + 0.08F * fine[at(px, py)]), outer < 0 ? 2.0F : 0.8F};
+  });
+  return finish(s, {0.34F, 0.18F, 5});
+}
+
+Image portal() {
+  // A pointed door of oak boards within two orders of stone.
+  Surface s = panes(1270, 0.1F);
+  const Field grainOf = woodGrain(kFull, 44, 1271), fine = fbm(kFull, {50, 50}, 3, 0.7F, 1272);
+  const glm::vec3 oak = srgb(0x6a5138), stone = srgb(0xc4b89e);
+  for (int board = 0; board < 8; ++board) {
+    const float x = 0.18F + 0.08F * static_cast<float>(board);
+    wood(s, grainOf, oak * (0.9F + 0.2F * chance(static_cast<uint32_t>(board), 1273)), 0, part(x, 0, x + 0.077F, 1));
+  }
+  for (const float y : {0.10F, 0.42F}) wood(s, grainOf, srgb(0x35322e), 1.5F, part(0.18F, y, 0.82F, y + 0.025F));
+  repaint(s, part(0, 0, 1, 1), [&](int px, int py, const Texel& under, int) {
+    const float x = glm::abs(static_cast<float>(px) / kTexels - 0.5F);
+    const float up = glm::max(0.0F, static_cast<float>(py) / kTexels - 0.55F) * 1.5F;
+    const float inside = 0.64F - glm::length(glm::vec2(x + 0.32F, up));
+    if (inside > 0) return Texel{under.colour * glm::clamp(0.45F + 6 * inside, 0.45F, 1.0F), under.height};
+    // Orders: rolls that catch the light between hollows.
+    const float order = -inside / 0.16F;
+    const float roll = order < 1 ? 0.62F + 0.38F * std::cos(order * 4 * 3.14159265F) : 1.0F;
+    return Texel{stone * roll * (1 + 0.08F * fine[at(px, py)]), order < 1 ? 1 + roll : 3};
+  });
+  return finish(s, {0.36F, 0.2F, 5});
+}
+
 Image windowArched() {
   Surface s = glazed({2, 4, 0.014F, 0.08F, 0.05F, 0}, srgb(0x6f8478), 1260);
   archOver(s, 0.68F, srgb(0xcbbd9c), 1264);

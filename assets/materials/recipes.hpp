@@ -67,6 +67,8 @@ Image windowSashFramed();
 Image windowSash();
 Image windowLeaded();
 Image windowArched();
+Image windowTracery();
+Image portal();
 Image doorPanelled();
 Image doorArched();
 Image shopFront();

@@ -200,6 +200,16 @@ void readFinish(Table& table, const char* key, std::optional<Finish>& out) {
   if (!name.empty()) out = finishNamed(name);
 }
 
+/// Which parameters there are only the rules know: `checkStyles` asks them.
+void readParameters(Table& t, StyleRule& rule) {
+  for (auto&& [key, node] : t.raw()) {
+    StyleParameter& p = rule.parameters.emplace_back();
+    p.name = key.str(), p.place = placeOf(key.source());
+    if (const auto value = t.number(p.name.c_str())) p.value = *value;
+  }
+  if (rule.rules.empty()) t.errors().say(t.raw(), "parameters belong to rules: name these, too");
+}
+
 void readStyles(Table& table, std::vector<StyleRule>& out) {
   table.tables("styles", [&](Table& t) {
     StyleRule& rule = out.emplace_back();
@@ -214,6 +224,7 @@ void readStyles(Table& table, std::vector<StyleRule>& out) {
       c.below = w.number("below");
     });
     t.text("rules", rule.rules);
+    t.table("parameters", [&](Table& p) { readParameters(p, rule); });
     readFinish(t, "facade", rule.facade);
     readFinish(t, "walls", rule.plain);
     readFinish(t, "roof", rule.roof);

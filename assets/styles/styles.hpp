@@ -2,8 +2,10 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "city/diagnostics.hpp"
@@ -20,5 +22,12 @@ std::vector<std::string> styleNames();
 /// The style of that name, or of the file where it ends in `.rules`. Nothing, with errors that name file, line and
 /// column, where it is not known or its rules have mistakes.
 std::optional<facade::Style> loadStyle(const std::string& nameOrFile, city::Diagnostics& diagnostics);
+
+/// One value for each of the style's parameters, in the rules' own units: those given by name (in the unit that the
+/// rules write), else the style's own. Names that it does not have count for nothing.
+std::vector<double> parametersOf(const facade::Style& style, std::span<const std::pair<std::string, double>> given);
+
+/// What is wrong with giving a parameter that value, in plain words, with the nearest name or the range; empty is good.
+std::string parameterProblem(const facade::Style& style, const std::string& name, double value);
 
 }  // namespace vicus::assets

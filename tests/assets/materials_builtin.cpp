@@ -153,7 +153,7 @@ TEST(MaterialsBuiltin, NoSeamStandsOut) {
   for (const auto& [name, image] : pictures())
     for (const bool across : {true, false}) {
       // Pictures of one opening stand alone; under their arches nothing goes on.
-      if (name.ends_with("-arched")) continue;
+      if (name.ends_with("-arched") || name == "window-tracery" || name == "portal") continue;
       const int n = across ? image.width : image.height;
       double largest = 0;
       for (int at = 0; at + 1 < n; ++at) largest = std::max(largest, meanStep(image, at, across));

@@ -213,6 +213,76 @@ TEST(SceneDescription, ADraftCanBeReadAndGivesTheSameCity) {
   EXPECT_EQ(again.city->tours.size(), 1u);
 }
 
+/// A town of two houses in a folder, whose rules lie beside its description.
+struct OwnRules {
+  TemporaryFolder folder;
+  OwnRules() {
+    std::filesystem::create_directories(folder.path() / "data");
+    folder.write("data/houses.geojson", houses());
+    rules("2.5");
+  }
+  void rules(const std::string& storey) const {
+    folder.write("own.rules", "param storey = " + storey +
+                                  " m (2 .. 4)\n"
+                                  "House => Extrude(house.height, Comp(side: Wall))\n"
+                                  "Wall => RepeatY(storey, AttachScope(block, 0.1, 10, 20, oak))\n");
+  }
+  std::string scene(const std::string& parameters) const {
+    return folder.write("town.toml",
+                        "folder = \"data\"\n[[sources]]\nfile = \"houses.geojson\"\n"
+                        "height_column = \"hoch\"\n[[styles]]\nrules = \"own.rules\"\n" +
+                            parameters);
+  }
+  static size_t blocks(const LoadResult& loaded) {
+    size_t count = 0;
+    for (const city::BuildingGeometry& g : loaded.city->buildingTypes) count += g.externalGeometry.size();
+    return count;
+  }
+};
+
+TEST(SceneDescription, RulesLieBesideItAndTakeParameters) {
+  const OwnRules town;
+  const LoadResult usual = load(town.scene(""));
+  ASSERT_TRUE(usual.city) << messagesOf(usual.diagnostics);
+  EXPECT_EQ(messagesOf(usual.diagnostics), "");
+  EXPECT_EQ(OwnRules::blocks(usual), 4u * 3 + 4u * 4) << "7 and 9 m in storeys of about 2.5 m";
+  ASSERT_EQ(usual.rulesFiles.size(), 1u);
+  EXPECT_TRUE(usual.rulesFiles[0].ends_with("own.rules"));
+  const LoadResult higher = load(town.scene("parameters = { storey = 3.5 }\n"));
+  ASSERT_TRUE(higher.city) << messagesOf(higher.diagnostics);
+  EXPECT_EQ(OwnRules::blocks(higher), 4u * 2 + 4u * 3);
+}
+
+TEST(SceneDescription, ParametersAreChecked) {
+  const OwnRules town;
+  const auto complaint = [&](const std::string& text) {
+    const LoadResult loaded = load(town.scene(text));
+    EXPECT_FALSE(loaded.city) << text;
+    return messagesOf(loaded.diagnostics);
+  };
+  EXPECT_THAT(complaint("parameters = { story = 3 }\n"),
+              HasSubstr("line 7, column 16: the rules have no parameter story; did you mean storey?"));
+  EXPECT_THAT(complaint("parameters = { storey = 31 }\n"), HasSubstr("storey is 31; it goes from 2 to 4 m"));
+  EXPECT_THAT(complaint("parameters = { storey = \"high\" }\n"), HasSubstr("storey is a number, not string"));
+  EXPECT_THAT(complaint("[[sources.styles]]\nparameters = { storey = 3 }\n"),
+              HasSubstr("parameters belong to rules: name these, too"));
+}
+
+TEST(SceneDescription, TheCacheSeesTheContentOfRules) {
+  const OwnRules town;
+  LoadOptions options;
+  options.cacheFolder = (town.folder.path() / "cache").string();
+  const std::string scene = town.scene("");
+  const LoadResult cold = load(scene, options);
+  cold.cached.wait();
+  EXPECT_TRUE(load(scene, options).fromCache);
+  town.rules("4");
+  const LoadResult changed = load(scene, options);
+  changed.cached.wait();
+  EXPECT_FALSE(changed.fromCache);
+  EXPECT_LT(OwnRules::blocks(changed), OwnRules::blocks(cold));
+}
+
 /// The keys of docs/scene.schema.json are those that the parser knows: a description with every key of the schema has
 /// no unknown one.
 TEST(SceneDescription, TheSchemaKnowsTheSameKeys) {

@@ -41,7 +41,7 @@ class Live : public testing::Test {
     context_ = makeOffscreenContext(error);
     if (!context_) GTEST_SKIP() << "nothing to draw with: " << error;
     context_->makeCurrent();
-    drawing_.emplace(Drawing{city_, *context_, allKnobs(), {}, {}, {}});
+    drawing_.emplace(Drawing{&city_, *context_, allKnobs(), {}, {}, {}});
     drawing_->planner = std::make_unique<plan::Planner>(city_, drawing_->knobs);
     city::Diagnostics diagnostics;
     drawing_->scene = std::make_unique<scenegraph::Scene>(city_, drawing_->knobs, diagnostics);
