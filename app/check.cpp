@@ -76,10 +76,11 @@ int check(const CheckOptions& options, const Surroundings& surroundings) {
   finishCache(*scene, console);
 
   // One planner as asked and one with every technique off, each with what it remembers between views. What hides what
-  // is checked on one ground and with one set of bodies: those at full detail.
+  // is checked on one ground and with one set of bodies and houses: those at full detail.
   city::Knobs onFullGround = scene->knobs;
   onFullGround.set("roam", 0);
   onFullGround.set("avatar_lod", 0);
+  onFullGround.set("house_lod", 0);
   const plan::Planner planner(*scene->city, onFullGround);
   const plan::Planner everything(*scene->city, withoutTechniques(scene->knobs));
   plan::PlannerState state, everythingState;

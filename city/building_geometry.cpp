@@ -41,12 +41,10 @@ void BuildingBuilder::begin(Target target) {
 }
 
 void BuildingBuilder::beginCut() {
-  depth_ = 0;
   begin(Target::Cut);
 }
 
 void BuildingBuilder::beginFlat() {
-  depth_ = 0;
   begin(Target::Flat);
   hasFlat_.back() = true;
 }
@@ -56,7 +54,6 @@ void BuildingBuilder::beginExternalGeometry(float depth) {
   if (geometry_.planes.empty()) beginPlane(PlaneKind::Other, 0, {0, 0, 1}, false);
   geometry_.externalGeometry.push_back({{}, depth});
   ++geometry_.planes.back().externalGeometry.count;
-  depth_ = depth;
   begin(Target::Geometry);
 }
 
@@ -65,7 +62,6 @@ void BuildingBuilder::beginExternalOpening(float depth) {
   if (geometry_.planes.empty()) beginPlane(PlaneKind::Other, 0, {0, 0, 1}, false);
   geometry_.externalOpenings.push_back({{}, depth});
   ++geometry_.planes.back().externalOpenings.count;
-  depth_ = -depth;
   begin(Target::Opening);
 }
 
@@ -88,10 +84,9 @@ void BuildingBuilder::addTriangles(std::span<const glm::vec3> positions, std::sp
   Piece& target = piece();
   const auto base = static_cast<uint32_t>(geometry_.vertices.size());
   const uint32_t packedNormal = packNormal(normal);
-  const uint32_t slide = packSlide(geometry_.planes.back().normal, depth_);
   const uint16_t item = itemNumber();
   for (size_t i = 0; i < positions.size(); ++i) {
-    geometry_.vertices.push_back({positions[i], uvs[i], packedNormal, material, item, slide});
+    geometry_.vertices.push_back({positions[i], uvs[i], packedNormal, material, item, 0});
     geometry_.bounds.extend(positions[i]);
   }
   for (const uint32_t index : triangles) target.indices.push_back(base + index);
@@ -149,6 +144,36 @@ void BuildingBuilder::setFootprint(std::vector<std::vector<glm::vec2>> rings) {
   geometry_.footprint = std::move(rings);
 }
 
+namespace {
+
+/// Tells each vertex of an item how far it lies out of its wall's surface: what house LOD slides.
+void setSlides(BuildingGeometry& g) {
+  constexpr float kOnTheWall = 1e-4f;  // metres: rounding
+  for (const Plane& plane : g.planes) {
+    const uint32_t wallSlide = packSlide(plane.normal, 0);
+    for (const Range& surface : {plane.cut, plane.flat})
+      for (uint32_t i = surface.first; i < surface.end(); ++i) g.vertices[g.indices[i]].slide = wallSlide;
+    if (plane.externalGeometry.count == 0 && plane.externalOpenings.count == 0) continue;
+    const Range& surface = plane.flat.count > 0 ? plane.flat : plane.cut;
+    if (surface.count == 0) continue;  // items without a wall stay where they are
+    const float level = glm::dot(g.vertices[g.indices[surface.first]].position, plane.normal);
+    const auto set = [&](const ExternalItem& item, float low, float high) {
+      for (uint32_t i = item.indices.first; i < item.indices.end(); ++i) {
+        Vertex& v = g.vertices[g.indices[i]];
+        const float out = std::clamp(glm::dot(v.position, plane.normal) - level, low, high);
+        v.slide = packSlide(plane.normal, std::abs(out) > kOnTheWall ? out : 0);
+      }
+    };
+    for (uint32_t i = plane.externalGeometry.first; i < plane.externalGeometry.end(); ++i)
+      set(g.externalGeometry[i], 0, g.externalGeometry[i].depth);
+    // An opening's reveals may come out as far as the frame about it.
+    for (uint32_t i = plane.externalOpenings.first; i < plane.externalOpenings.end(); ++i)
+      set(g.externalOpenings[i], -g.externalOpenings[i].depth, g.externalOpenings[i].depth);
+  }
+}
+
+}  // namespace
+
 BuildingGeometry BuildingBuilder::finish() {
   BuildingGeometry& g = geometry_;
   // Walls, roofs and what goes into them hide together what is behind; what sticks out only stands before them.
@@ -181,10 +206,10 @@ BuildingGeometry BuildingBuilder::finish() {
     if (!hasFlat_[i]) g.planes[i].flat = g.planes[i].cut;
     appendAll(i, Target::Flat, [&](const Piece&) -> Range& { return g.planes[i].flat; });
   }
+  setSlides(g);
   g.height = g.bounds.empty() ? 0 : g.bounds.max.z;
   pieces_.clear();
   hasFlat_.clear();
-  depth_ = 0;
   return std::exchange(geometry_, {});
 }
 

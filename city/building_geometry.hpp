@@ -130,7 +130,6 @@ class BuildingBuilder {
   BuildingGeometry geometry_;
   std::vector<Piece> pieces_;
   std::vector<bool> hasFlat_;
-  float depth_ = 0;
 };
 
 }  // namespace vicus::city

@@ -56,6 +56,12 @@ struct AvatarPlan {
   double pixelError = 0;
 };
 
+/// How much of each house one frame draws (houselod/levels.hpp).
+struct HouseLodPlan {
+  double inverseScalar = 0;     ///< what things on walls slide by; 0: nothing slides
+  std::vector<uint8_t> levels;  ///< by building, those of drawn ones count; empty: all at full detail
+};
+
 /// Time that one step of the plan took.
 struct StageTime {
   std::string_view name;
@@ -66,6 +72,7 @@ struct PlanCounts {
   uint64_t tiles = 0, tilesDrawn = 0;  ///< tiles with anything on them
   uint64_t instances = 0, instancesInFrustum = 0, instancesOccluded = 0,
            instancesDrawn = 0;  ///< buildings and monuments
+  uint64_t instancesFlat = 0;  ///< buildings drawn without anything on their walls
   uint64_t treesDrawn = 0;
   uint64_t avatarsDrawn = 0, avatarPoses = 0;  ///< people drawn, and those of them whose pose was made anew
   uint64_t boxTests = 0;                       ///< boxes tested against the frustum
@@ -77,6 +84,7 @@ struct FramePlan {
   ViewState view;
   SetPlan buildings;
   SetPlan trees;
+  HouseLodPlan houseLod;
   std::vector<uint32_t> monuments;  ///< drawn, ascending
   std::vector<uint32_t> tiles;      ///< drawn: tiles whose ground or content may be seen, in Morton order (ascending)
   AvatarPlan avatars;               ///< people

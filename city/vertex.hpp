@@ -16,7 +16,7 @@ struct Vertex {
   uint32_t normal = 0;      ///< unit normal, `packNormal`
   MaterialId material = 0;  ///< index into City::materials
   uint16_t item = 0;        ///< 0: the wall or roof itself; else 1 + index of the external item that it belongs to
-  uint32_t slide = 0;       ///< how house LOD slides it, `packSlide`: axis out of the wall and depth in metres
+  uint32_t slide = 0;       ///< how house LOD slides it, `packSlide`: axis out of the wall, metres from its surface
 
   bool operator==(const Vertex&) const = default;
 };
@@ -37,8 +37,8 @@ uint32_t packNormal(glm::vec3 unit);
 /// The inverse of `packNormal`; always of unit length.
 glm::vec3 unpackNormal(uint32_t packed);
 
-/// Slide axis (unit, out of the wall) as two signed 8-bit octahedral coordinates in the low half, signed depth in
-/// metres as a half float in the high half: positive sticks out, negative goes in.
+/// Slide axis (unit, out of the wall) as two signed 8-bit octahedral coordinates in the low half, metres from the
+/// wall's surface as a half float in the high half: positive lies before it, negative behind.
 uint32_t packSlide(glm::vec3 axis, float depth);
 struct Slide {
   glm::vec3 axis;

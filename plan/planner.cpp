@@ -15,6 +15,7 @@
 #include "culling/frustum.hpp"
 #include "culling/hierarchy.hpp"
 #include "plan/ground_weights.hpp"
+#include "plan/house_levels.hpp"
 #include "plan/people.hpp"
 #include "terrain/error_table.hpp"
 
@@ -61,6 +62,7 @@ struct Scene {
   bool cullMap = false;
   culling::Occluders occluders;
   culling::CullMapOptions cullMapOptions;
+  HouseLodScene houseLod;
   PeopleScene people;
   bool roam = false;
   terrain::RoamSettings roamSettings;
@@ -157,6 +159,10 @@ void poseAvatars(Frame& frame) {
   posePeople(frame.city, frame.scene.people, frame.state.people, frame.plan);
 }
 
+void levelHouses(Frame& frame) {
+  chooseLevels(frame.city, frame.scene.houseLod, frame.plan);
+}
+
 void meshGround(Frame& frame) {
   const Scene& scene = frame.scene;
   const city::HeightField& field = *frame.city.terrain;
@@ -182,6 +188,7 @@ constexpr Step kSteps[] = {
     {"frustum avatars", [](const Scene& s) { return s.frustumCulling && hasPeople(s); }, frustumAvatars},
     {"all avatars", [](const Scene& s) { return !s.frustumCulling && hasPeople(s); }, allAvatars},
     {"cull map", [](const Scene& s) { return s.cullMap; }, cullHidden},
+    {"house lod", [](const Scene& s) { return s.houseLod.on; }, levelHouses},
     {"roam", [](const Scene& s) { return s.roam; }, meshGround},
     {"avatar poses", hasPeople, poseAvatars},
 };
@@ -212,6 +219,7 @@ void lookAt(const City& city, const city::Knobs& knobs, Scene& scene) {
                             static_cast<culling::CullMapKind>(std::clamp(std::round(knobs["cull_map.kind"]), 0.0, 2.0)),
                             static_cast<uint32_t>(knobs["cull_map.cells"])};
   }
+  scene.houseLod = lookAtHouses(city, knobs);
   const bool tooLarge = hasTerrain(city) && city.terrain->heights.size() > kMostSamplesAtFullDetail;
   scene.roam = hasTerrain(city) && (knobs.on("roam") || tooLarge);
   if (scene.roam && !knobs.on("roam")) {
@@ -254,6 +262,16 @@ std::vector<FeatureReport> describe(const City& city, const city::Knobs& knobs, 
   else
     why = counted(scene.occluders.standing, "wall", "walls") + " may hide what is behind";
   features.push_back({"cull_map", true, scene.cullMap, std::move(why)});
+
+  if (!knobs.on("house_lod"))
+    why = "knob";
+  else if (city.buildings.empty())
+    why = "no buildings";
+  else
+    why = scene.houseLod.on ? counted(scene.houseLod.flatTypes, "type of building has", "types of buildings have") +
+                                  " things on walls"
+                            : "nothing is on the walls";
+  features.push_back({"house_lod", true, scene.houseLod.on, std::move(why)});
 
   if (!knobs.on("roam"))
     why = scene.roam ? "the field is too large to be drawn at full detail" : "knob";
@@ -326,6 +344,7 @@ struct Planner::Impl {
 std::span<const city::Knob> planKnobs() {
   static const std::vector<city::Knob> all = [] {
     std::vector<city::Knob> knobs(std::begin(kCullingKnobs), std::end(kCullingKnobs));
+    knobs.insert(knobs.end(), houselod::houseLodKnobs().begin(), houselod::houseLodKnobs().end());
     knobs.insert(knobs.end(), terrain::roamKnobs().begin(), terrain::roamKnobs().end());
     knobs.insert(knobs.end(), avatars::avatarKnobs().begin(), avatars::avatarKnobs().end());
     return knobs;

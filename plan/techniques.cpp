@@ -1,10 +1,13 @@
 #include "plan/techniques.hpp"
 
+#include "houselod/slide.hpp"
+
 namespace vicus::plan {
 namespace {
 
 constexpr double kColumns[] = {64, 128, 256, 512, 1024, 8192};
 constexpr double kPixelErrors[] = {0.5, 1, 2, 4, 8, 16};
+constexpr double kHouseScalars[] = {16, 32, 64, 128, 256, 512};
 constexpr double kPoseRates[] = {4, 8, 15, 30, 60, 120};
 constexpr double kMultisamples[] = {1, 2, 4, 8};
 
@@ -16,6 +19,14 @@ constexpr Technique kTechniques[] = {
      .sweptKnob = "roam.pixel_error",
      .sweep = kPixelErrors,
      .geometricErrorPixels = [](const city::FramePlan& plan) { return plan.roam ? plan.roam->pixelError : 0.0; }},
+    {.name = "house_lod",
+     .switchKnob = "house_lod",
+     .sweptKnob = "house_lod.scalar",
+     .sweep = kHouseScalars,
+     .geometricErrorPixels =
+         [](const city::FramePlan& plan) {
+           return houselod::largestErrorPixels(plan.houseLod.inverseScalar, city::pixelsPerUnitSlope(plan.view));
+         }},
     {.name = "avatar_lod",
      .switchKnob = "avatar_lod",
      .sweptKnob = "avatar_lod.rate",

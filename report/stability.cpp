@@ -7,6 +7,7 @@
 #include "culling/cull_map_stability.hpp"
 #include "culling/stability.hpp"
 #include "facade/stability.hpp"
+#include "houselod/stability.hpp"
 #include "terrain/stability.hpp"
 
 namespace vicus::report {
@@ -21,6 +22,7 @@ std::vector<city::StabilityRow> allStability() {
   add(culling::cullMapStability());
   add(terrain::roamStability());
   add(facade::rulesStability());
+  add(houselod::houseLodStability());
   add(avatars::avatarStability());
   return rows;
 }

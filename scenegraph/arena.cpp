@@ -1,40 +1,60 @@
 #include "scenegraph/arena.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 
 namespace vicus::scenegraph {
 namespace {
 
-/// A building plane at full detail is one run of indices: its cut surface, then its items (BuildingGeometry's layout).
-PlaneRun runOf(const city::BuildingGeometry& g, const city::Plane& plane) {
-  uint32_t first = UINT32_MAX, end = 0;
-  const auto include = [&](const city::Range& range) {
-    if (range.count == 0) return;
-    first = std::min(first, range.first);
-    end = std::max(end, range.end());
+/// The pieces of a building type; in scene order each plane is a run.
+std::vector<Piece> piecesOf(const city::BuildingGeometry& g, const houselod::TypeLevels& levels, Ordering ordering) {
+  std::vector<Piece> pieces;
+  const auto add = [&](const city::Range& indices, uint32_t run, uint32_t order) {
+    if (indices.count > 0) pieces.push_back({indices, run, order});
   };
-  include(plane.cut);
-  for (uint32_t i = plane.externalGeometry.first; i < plane.externalGeometry.end(); ++i)
-    include(g.externalGeometry[i].indices);
-  for (uint32_t i = plane.externalOpenings.first; i < plane.externalOpenings.end(); ++i)
-    include(g.externalOpenings[i].indices);
-  if (end == 0) return {{0, 0}, plane.baseTexture};
-  return {{first, end - first}, plane.baseTexture};
+  for (uint32_t p = 0; p < g.planes.size(); ++p) {
+    const city::Plane& plane = g.planes[p];
+    const uint32_t run = ordering == Ordering::Scene ? p : 0;
+    const auto addOpenings = [&](uint32_t order) {
+      for (uint32_t i = plane.externalOpenings.first; i < plane.externalOpenings.end(); ++i)
+        add(g.externalOpenings[i].indices, run, order);
+    };
+    add(plane.cut, run, 0);
+    addOpenings(0);
+    for (uint32_t i = plane.externalGeometry.first; i < plane.externalGeometry.end(); ++i)
+      add(g.externalGeometry[i].indices, run, 1 + levels.stepOf[i]);
+    if (!levels.flat) continue;
+    add(plane.flat, run, kFlatSurface);
+    if (plane.flat == plane.cut) addOpenings(kFlatSurface);  // else its holes would stay open
+  }
+  return pieces;
 }
 
 }  // namespace
 
 bool Arena::has(ArenaPart part) const {
-  return std::any_of(geometries.begin(), geometries.end(),
-                     [&](const ArenaGeometry& g) { return g.parts[static_cast<size_t>(part)].count > 0; });
+  return std::any_of(runs.begin(), runs.end(), [&](const ArenaRun& run) {
+    const ArenaPiece& piece = run.parts[static_cast<size_t>(part)];
+    return piece.end > piece.first;
+  });
+}
+
+city::Range indicesAt(const Arena& arena, const ArenaRun& run, ArenaPart part, houselod::Level level) {
+  const ArenaPiece& piece = run.parts[static_cast<size_t>(part)];
+  if (level == houselod::kFullDetail) return {piece.first, piece.flat - piece.first};
+  const uint32_t first = arena.steps[piece.steps + level - 1u];
+  return {first, piece.end - first};
 }
 
 void addGeometry(Arena& arena, std::span<const city::Vertex> vertices, std::span<const uint32_t> indices,
-                 std::span<const PlaneRun> planes, std::span<const uint8_t> cutOut, uint64_t chunkBytes) {
+                 std::vector<Piece> pieces, std::span<const city::MaterialId> runs, uint32_t steps,
+                 std::span<const uint8_t> cutOut, uint64_t chunkBytes) {
+  size_t count = 0;
+  for (const Piece& piece : pieces) count += piece.indices.count;
   const auto full = [&](const ArenaChunk& chunk) {
     return (chunk.vertices.size() + vertices.size()) * sizeof(city::Vertex) > chunkBytes ||
-           (chunk.indices.size() + indices.size()) * sizeof(uint32_t) > chunkBytes;
+           (chunk.indices.size() + count) * sizeof(uint32_t) > chunkBytes;
   };
   if (arena.chunks.empty() || (full(arena.chunks.back()) && !arena.chunks.back().vertices.empty()))
     arena.chunks.emplace_back();
@@ -43,37 +63,58 @@ void addGeometry(Arena& arena, std::span<const city::Vertex> vertices, std::span
   ArenaGeometry geometry;
   geometry.chunk = static_cast<uint32_t>(arena.chunks.size() - 1);
   geometry.baseVertex = static_cast<int32_t>(chunk.vertices.size());
-  geometry.planes = {static_cast<uint32_t>(arena.planes.size()), static_cast<uint32_t>(planes.size())};
+  geometry.runs = {static_cast<uint32_t>(arena.runs.size()), static_cast<uint32_t>(runs.size())};
+  geometry.steps = steps;
   chunk.vertices.insert(chunk.vertices.end(), vertices.begin(), vertices.end());
-  for (const PlaneRun& plane : planes) arena.planes.push_back({{}, plane.material});
 
-  for (size_t part = 0; part < kArenaParts; ++part) {
-    geometry.parts[part].first = static_cast<uint32_t>(chunk.indices.size());
-    for (uint32_t p = 0; p < planes.size(); ++p) {
-      city::Range& run = arena.planes[geometry.planes.first + p].parts[part];
-      run.first = static_cast<uint32_t>(chunk.indices.size());
-      for (uint32_t i = planes[p].indices.first; i + 2 < planes[p].indices.end(); i += 3) {
-        assert(std::max({indices[i], indices[i + 1], indices[i + 2]}) < vertices.size());
-        const city::MaterialId material = vertices[indices[i]].material;
-        const bool holes = material < cutOut.size() && cutOut[material] != 0;
-        if (holes == (part == static_cast<size_t>(ArenaPart::CutOut)))
-          chunk.indices.insert(chunk.indices.end(), &indices[i], &indices[i] + 3);
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const Piece& a, const Piece& b) { return a.run != b.run ? a.run < b.run : a.order < b.order; });
+  size_t next = 0;
+  for (uint32_t r = 0; r < runs.size(); ++r) {
+    const size_t begin = next;
+    while (next < pieces.size() && pieces[next].run == r) ++next;
+    ArenaRun run;
+    run.material = runs[r];
+    for (size_t part = 0; part < kArenaParts; ++part) {
+      ArenaPiece& out = run.parts[part];
+      const auto here = [&] { return static_cast<uint32_t>(chunk.indices.size()); };
+      out.first = here();
+      out.steps = static_cast<uint32_t>(arena.steps.size());
+      arena.steps.resize(arena.steps.size() + steps + 1);
+      uint32_t step = 0;  // steps whose beginning is known
+      for (size_t k = begin; k < next; ++k) {
+        const Piece& piece = pieces[k];
+        while (step <= steps && piece.order > step) arena.steps[out.steps + step++] = here();
+        for (uint32_t i = piece.indices.first; i + 2 < piece.indices.end(); i += 3) {
+          assert(std::max({indices[i], indices[i + 1], indices[i + 2]}) < vertices.size());
+          const city::MaterialId material = vertices[indices[i]].material;
+          const bool holes = material < cutOut.size() && cutOut[material] != 0;
+          if (holes == (part == static_cast<size_t>(ArenaPart::CutOut)))
+            chunk.indices.insert(chunk.indices.end(), &indices[i], &indices[i] + 3);
+        }
       }
-      run.count = static_cast<uint32_t>(chunk.indices.size()) - run.first;
+      while (step <= steps) arena.steps[out.steps + step++] = here();
+      out.flat = arena.steps[out.steps + steps];
+      out.end = here();
     }
-    geometry.parts[part].count = static_cast<uint32_t>(chunk.indices.size()) - geometry.parts[part].first;
+    arena.runs.push_back(run);
   }
   arena.geometries.push_back(geometry);
 }
 
-Arena buildingArena(const city::City& city, std::span<const uint8_t> cutOut) {
+Arena buildingArena(const city::City& city, std::span<const uint8_t> cutOut, Ordering ordering) {
   Arena arena;
   arena.geometries.reserve(city.buildingTypes.size());
-  std::vector<PlaneRun> runs;
+  std::vector<city::MaterialId> materials;
   for (const city::BuildingGeometry& g : city.buildingTypes) {
-    runs.clear();
-    for (const city::Plane& plane : g.planes) runs.push_back(runOf(g, plane));
-    addGeometry(arena, g.vertices, g.indices, runs, cutOut);
+    const houselod::TypeLevels levels = houselod::levelsOf(g);
+    materials.clear();
+    if (ordering == Ordering::Scene)
+      for (const city::Plane& plane : g.planes) materials.push_back(plane.baseTexture);
+    else
+      materials.push_back(g.planes.empty() ? city::MaterialId{0} : g.planes[0].baseTexture);
+    addGeometry(arena, g.vertices, g.indices, piecesOf(g, levels, ordering), materials,
+                static_cast<uint32_t>(levels.reaches.size()), cutOut);
   }
   return arena;
 }
@@ -81,9 +122,9 @@ Arena buildingArena(const city::City& city, std::span<const uint8_t> cutOut) {
 Arena treeArena(const city::City& city, std::span<const uint8_t> cutOut) {
   Arena arena;
   for (const city::MeshGeometry& g : city.treeTypes) {
-    const PlaneRun whole{{0, static_cast<uint32_t>(g.mesh.indices.size())},
-                         g.mesh.vertices.empty() ? city::MaterialId{0} : g.mesh.vertices[0].material};
-    addGeometry(arena, g.mesh.vertices, g.mesh.indices, {&whole, 1}, cutOut);
+    const city::MaterialId material = g.mesh.vertices.empty() ? city::MaterialId{0} : g.mesh.vertices[0].material;
+    addGeometry(arena, g.mesh.vertices, g.mesh.indices, {{{0, static_cast<uint32_t>(g.mesh.indices.size())}, 0, 0}},
+                {&material, 1}, 0, cutOut);
   }
   return arena;
 }

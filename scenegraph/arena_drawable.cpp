@@ -14,6 +14,8 @@ constexpr VertexAttribute kVertexAttributes[] = {
     {1, 2, GL_FLOAT, As::Float, offsetof(city::Vertex, uv)},
     {2, 2, GL_SHORT, As::Normalised, offsetof(city::Vertex, normal)},
     {3, 2, GL_UNSIGNED_SHORT, As::Integer, offsetof(city::Vertex, material)},
+    {8, 2, GL_BYTE, As::Normalised, offsetof(city::Vertex, slide)},
+    {9, 1, GL_HALF_FLOAT, As::Float, offsetof(city::Vertex, slide) + 2},
 };
 constexpr VertexAttribute kInstanceAttributes[] = {
     {4, 3, GL_FLOAT, As::Float, offsetof(GpuInstance, position)},
@@ -82,17 +84,17 @@ ArenaDrawable::ArenaDrawable(std::shared_ptr<ArenaBuffers> buffers, std::shared_
 DrawCounts ArenaDrawable::apply() {
   DrawCounts counts;
   const Arena& arena = buffers_->arena();
-  const auto part = static_cast<size_t>(part_);
   for (auto& list : commands_) list.clear();
-  for (const uint32_t i : group_->drawn) {
+  for (const auto& [i, level] : group_->drawn) {
     const ArenaGeometry& g = arena.geometries[group_->geometries[i]];
-    if (g.parts[part].count == 0) continue;
-    counts.triangles += g.parts[part].count / 3;
-    if (ordering_ == Ordering::ByState) {
-      commands_[g.chunk].push_back({g.parts[part].count, 1, g.parts[part].first, g.baseVertex, i});
-    } else {
-      for (uint32_t p = g.planes.first; p < g.planes.end(); ++p)
-        counts.drawCalls += arena.planes[p].parts[part].count > 0;
+    for (uint32_t r = g.runs.first; r < g.runs.end(); ++r) {
+      const city::Range indices = indicesAt(arena, arena.runs[r], part_, level);
+      if (indices.count == 0) continue;
+      counts.triangles += indices.count / 3;
+      if (ordering_ == Ordering::ByState)
+        commands_[g.chunk].push_back({indices.count, 1, indices.first, g.baseVertex, i});
+      else
+        ++counts.drawCalls;
     }
   }
   if (ordering_ == Ordering::Scene) {
@@ -147,22 +149,21 @@ void ArenaDrawable::drawOrdered(GLuint instances) const {
 
 void ArenaDrawable::drawInSceneOrder(osg::State& state, GLuint instances) const {
   const Arena& arena = buffers_->arena();
-  const auto part = static_cast<size_t>(part_);
   uint32_t bound = UINT32_MAX;
-  for (const uint32_t i : group_->drawn) {
+  for (const auto& [i, level] : group_->drawn) {
     const ArenaGeometry& g = arena.geometries[group_->geometries[i]];
-    if (g.parts[part].count == 0) continue;
-    if (g.chunk != bound) buffers_->bind(bound = g.chunk, instances);
-    for (uint32_t p = g.planes.first; p < g.planes.end(); ++p) {
-      const ArenaPlane& plane = arena.planes[p];
-      if (plane.parts[part].count == 0) continue;
+    for (uint32_t r = g.runs.first; r < g.runs.end(); ++r) {
+      const ArenaRun& run = arena.runs[r];
+      const city::Range indices = indicesAt(arena, run, part_, level);
+      if (indices.count == 0) continue;
+      if (g.chunk != bound) buffers_->bind(bound = g.chunk, instances);
       // The same texture as the state sets put on this unit, so OpenSceneGraph's record stays right.
-      const uint32_t textureClass = plane.material < textures_->classOf.size() ? textures_->classOf[plane.material] : 0;
+      const uint32_t textureClass = run.material < textures_->classOf.size() ? textures_->classOf[run.material] : 0;
       state.setActiveTextureUnit(textureClass);
       if (auto* texture = textures_->arrays[textureClass]->getTextureObject(state.getContextID())) texture->bind();
-      glDrawElementsInstancedBaseVertexBaseInstance(
-          GL_TRIANGLES, static_cast<GLsizei>(plane.parts[part].count), GL_UNSIGNED_INT,
-          reinterpret_cast<const void*>(plane.parts[part].first * sizeof(uint32_t)), 1, g.baseVertex, i);
+      glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(indices.count), GL_UNSIGNED_INT,
+                                                    reinterpret_cast<const void*>(indices.first * sizeof(uint32_t)), 1,
+                                                    g.baseVertex, i);
     }
   }
 }

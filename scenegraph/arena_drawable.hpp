@@ -56,17 +56,16 @@ class InstanceGroup {
   void release() { buffer_.release(); }
 
   std::vector<uint32_t> geometries;  ///< for each instance
-  std::vector<uint32_t> drawn;       ///< instances of this group to be drawn, in the order drawn
+  /// An instance of this group to be drawn.
+  struct Drawn {
+    uint32_t instance;
+    houselod::Level level;
+  };
+  std::vector<Drawn> drawn;  ///< in the order drawn
 
  private:
   std::vector<GpuInstance> instances_;
   GlBuffer buffer_;
-};
-
-/// How draws are issued: the technique `state_ordering` (Willmott et al. 2001, §5.1) on or off.
-enum class Ordering : uint8_t {
-  ByState,  ///< textures bound once, one indirect multi-draw for each group and chunk
-  Scene,    ///< instance after instance, plane after plane: one texture bind and one draw for each
 };
 
 /// An OpenSceneGraph drawable that draws one part of a group with raw GL. Leaves OpenSceneGraph's record of GL state

@@ -40,7 +40,8 @@ class Instances : public Feature {
     buffers_ = std::make_shared<ArenaBuffers>(std::move(content.arena));
     gpuBytes_ = buffers_->bytes() + content.set->size() * sizeof(GpuInstance);
 
-    const std::vector<std::string>& defines = parts.textures->defines;
+    std::vector<std::string> defines = parts.textures->defines;
+    if (!isTrees_) defines.emplace_back("SLIDES");
     std::vector<std::string> withHoles = defines;
     withHoles.emplace_back("CUT_OUT");
     std::vector<std::pair<ArenaPart, SurfaceStates>> looks;
@@ -68,6 +69,7 @@ class Instances : public Feature {
 
   DrawCounts apply(const city::FramePlan& plan) override {
     const city::SetPlan& set = isTrees_ ? plan.trees : plan.buildings;
+    const std::span<const uint8_t> levels = isTrees_ ? std::span<const uint8_t>() : plan.houseLod.levels;
     // Near to far, so that what is hidden is hidden before it is shaded; scene order where ordering is off.
     if (ordering_ == Ordering::ByState) {
       for (GroupOfTiles& g : groups_) {
@@ -84,7 +86,7 @@ class Instances : public Feature {
     DrawCounts counts;
     for (GroupOfTiles& g : groups_) {
       g.instances->drawn.clear();
-      for (const TileRun& tile : g.tiles) addDrawn(g, tile.run, set.drawn);
+      for (const TileRun& tile : g.tiles) addDrawn(g, tile.run, set.drawn, levels);
       for (ArenaDrawable* drawable : g.drawables) counts += drawable->apply();
     }
     return counts;
@@ -136,12 +138,13 @@ class Instances : public Feature {
   }
 
   /// Adds the part of the plan's ascending runs that lies in `tile`, as numbers within the group.
-  static void addDrawn(GroupOfTiles& group, const city::Range& tile, const std::vector<city::Range>& drawn) {
+  static void addDrawn(GroupOfTiles& group, const city::Range& tile, const std::vector<city::Range>& drawn,
+                       std::span<const uint8_t> levels) {
     auto run = std::upper_bound(drawn.begin(), drawn.end(), tile.first,
                                 [](uint32_t first, const city::Range& r) { return first < r.end(); });
     for (; run != drawn.end() && run->first < tile.end(); ++run)
       for (uint32_t i = std::max(run->first, tile.first), end = std::min(run->end(), tile.end()); i < end; ++i)
-        group.instances->drawn.push_back(i - group.first);
+        group.instances->drawn.push_back({i - group.first, levels.empty() ? houselod::kFullDetail : levels[i]});
   }
 
   Ordering ordering_;
@@ -154,7 +157,7 @@ class Instances : public Feature {
 
 std::unique_ptr<Feature> makeBuildings(const city::City& city, const SceneParts& parts) {
   return std::make_unique<Instances>(city, parts,
-                                     InstanceContent{&city.buildings, buildingArena(city, parts.textures->cutOut),
+                                     InstanceContent{&city.buildings, buildingArena(city, parts.textures->cutOut, parts.ordering),
                                                      city.itemOfBuilding(0), true, "buildings"});
 }
 

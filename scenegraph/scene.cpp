@@ -65,9 +65,10 @@ struct FrameUniforms {
   osg::ref_ptr<osg::Uniform> eyeRelativeFromClip = new osg::Uniform("eyeRelativeFromClip", osg::Matrixf());
   osg::ref_ptr<osg::Uniform> worldFromEye = new osg::Uniform("worldFromEye", osg::Matrix3());
   osg::ref_ptr<osg::Uniform> time = new osg::Uniform("time", 0.0f);
+  osg::ref_ptr<osg::Uniform> slidePerMetre = new osg::Uniform("slidePerMetre", 0.0f);
 
   void addTo(osg::StateSet& states) const {
-    for (const auto& u : {clipFromEyeRelative, eyeRelativeFromClip, worldFromEye, time}) states.addUniform(u);
+    for (const auto& u : {clipFromEyeRelative, eyeRelativeFromClip, worldFromEye, time, slidePerMetre}) states.addUniform(u);
   }
 };
 
@@ -267,6 +268,7 @@ void Scene::apply(const city::FramePlan& plan, Variant variant, const PictureWin
   std::copy(glm::value_ptr(worldFromEye), glm::value_ptr(worldFromEye) + 9, m.ptr());
   s.uniforms.worldFromEye->set(m);
   s.uniforms.time->set(static_cast<float>(std::isfinite(view.time) ? std::fmod(view.time, 3600.0) : 0.0));
+  s.uniforms.slidePerMetre->set(static_cast<float>(plan.houseLod.inverseScalar));
   s.tiles->moveTo(view.eye);
 
   s.counts = {};

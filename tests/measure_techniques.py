@@ -13,11 +13,12 @@ import tempfile
 
 ROUNDS = 5
 FRAMES = 24
-TECHNIQUES = ["frustum_culling", "cull_map", "roam", "state_ordering"]
+TECHNIQUES = ["frustum_culling", "cull_map", "roam", "state_ordering", "house_lod"]
 CONFIGURATIONS = {
     "all off": [],
     "frustum culling only": ["frustum_culling"],
     "state ordering only": ["state_ordering"],
+    "state ordering, house LOD": ["state_ordering", "house_lod"],
     "frustum culling, state ordering": ["frustum_culling", "state_ordering"],
     "frustum culling, cull map": ["frustum_culling", "cull_map"],
     "all on": TECHNIQUES,

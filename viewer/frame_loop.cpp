@@ -129,6 +129,7 @@ std::vector<std::pair<std::string, MeanMax>> countsOf(std::span<const FrameRecor
   add("instances_in_frustum", [](const FrameRecord& r) { return r.counts.instancesInFrustum; });
   add("instances_occluded", [](const FrameRecord& r) { return r.counts.instancesOccluded; });
   add("instances_drawn", [](const FrameRecord& r) { return r.counts.instancesDrawn; });
+  add("instances_flat", [](const FrameRecord& r) { return r.counts.instancesFlat; });
   add("trees_drawn", [](const FrameRecord& r) { return r.counts.treesDrawn; });
   add("box_tests", [](const FrameRecord& r) { return r.counts.boxTests; });
   add("triangles", [](const FrameRecord& r) { return r.draw.triangles; });

@@ -10,6 +10,9 @@ layout(location = 5) in uint instanceTile;
 layout(location = 6) in vec2 turn;              // cosine and sine of the heading
 layout(location = 7) in uvec2 seedAndItem;
 #include "tiles.glsl"
+#ifdef SLIDES
+#include "slide.glsl"
+#endif
 uniform mat4 clipFromEyeRelative;
 
 #ifdef ITEM_ID
@@ -30,6 +33,10 @@ void main() {
   vec3 turned = vec3(turn.x * vertexPosition.x - turn.y * vertexPosition.y,
                      turn.y * vertexPosition.x + turn.x * vertexPosition.y, vertexPosition.z);
   vec3 fromEye = tileFromEye[instanceTile].xyz + (instancePosition + turned);
+#ifdef SLIDES
+  vec3 shift = slide(length(fromEye));
+  fromEye += vec3(turn.x * shift.x - turn.y * shift.y, turn.y * shift.x + turn.x * shift.y, shift.z);
+#endif
   gl_Position = clipFromEyeRelative * vec4(fromEye, 1.0);
 #ifdef ITEM_ID
   item = seedAndItem.y;

@@ -13,16 +13,49 @@ using tests::gabledHouse;
 using tests::smallTree;
 
 /// Corner positions of a run of indices, triangle by triangle, sorted.
-std::vector<std::array<float, 9>> triangles(const Arena& arena, const ArenaGeometry& g, const city::Range& run) {
-  const ArenaChunk& chunk = arena.chunks[g.chunk];
+std::vector<std::array<float, 9>> triangles(std::span<const city::Vertex> vertices, std::span<const uint32_t> indices,
+                                            int32_t baseVertex, const city::Range& run) {
   std::vector<std::array<float, 9>> out;
   for (uint32_t i = run.first; i < run.end(); i += 3) {
     std::array<float, 9> t{};
     for (uint32_t k = 0; k < 3; ++k) {
-      const glm::vec3 p = chunk.vertices[static_cast<size_t>(g.baseVertex) + chunk.indices[i + k]].position;
+      const glm::vec3 p = vertices[static_cast<size_t>(baseVertex) + indices[i + k]].position;
       t[3 * k] = p.x, t[3 * k + 1] = p.y, t[3 * k + 2] = p.z;
     }
     out.push_back(t);
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+/// What a level of a geometry draws, all runs together.
+std::vector<std::array<float, 9>> drawnAt(const Arena& arena, const ArenaGeometry& g, houselod::Level level,
+                                          ArenaPart part = ArenaPart::Opaque) {
+  const ArenaChunk& chunk = arena.chunks[g.chunk];
+  std::vector<std::array<float, 9>> out;
+  for (uint32_t r = g.runs.first; r < g.runs.end(); ++r) {
+    const auto more =
+        triangles(chunk.vertices, chunk.indices, g.baseVertex, indicesAt(arena, arena.runs[r], part, level));
+    out.insert(out.end(), more.begin(), more.end());
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+/// What it ought to draw, put together from the building itself.
+std::vector<std::array<float, 9>> expectedAt(const city::BuildingGeometry& g, houselod::Level level) {
+  const houselod::TypeLevels levels = houselod::levelsOf(g);
+  std::vector<std::array<float, 9>> out;
+  const auto add = [&](const city::Range& range) {
+    const auto more = triangles(g.vertices, g.indices, 0, range);
+    out.insert(out.end(), more.begin(), more.end());
+  };
+  if (level == houselod::kFullDetail) {
+    add(g.fullDetail);
+  } else {
+    for (const city::Plane& plane : g.planes) add(plane.flat);
+    for (size_t i = 0; i < g.externalGeometry.size(); ++i)
+      if (levels.stepOf[i] + 1 >= level) add(g.externalGeometry[i].indices);
   }
   std::sort(out.begin(), out.end());
   return out;
@@ -35,37 +68,63 @@ city::City twoHouses() {
 }
 
 TEST(Arena, OfNothingIsEmpty) {
-  const Arena arena = buildingArena({}, {});
+  const Arena arena = buildingArena({}, {}, Ordering::ByState);
   EXPECT_TRUE(arena.chunks.empty());
   EXPECT_FALSE(arena.has(ArenaPart::Opaque));
 }
 
-TEST(Arena, HoldsFullDetailOfEachTypeAndNothingElse) {
-  const city::City city = twoHouses();
-  const Arena arena = buildingArena(city, {});
-  ASSERT_EQ(arena.geometries.size(), 2u);
-  for (size_t i = 0; i < 2; ++i) {
-    const city::BuildingGeometry& from = city.buildingTypes[i];
-    const ArenaGeometry& g = arena.geometries[i];
-    EXPECT_EQ(g.parts[0].count, from.fullDetail.count);
-    EXPECT_EQ(g.parts[1].count, 0u);
-    Arena whole;
-    const PlaneRun run{from.fullDetail, 0};
-    addGeometry(whole, from.vertices, from.indices, {&run, 1}, {});
-    EXPECT_EQ(triangles(arena, g, g.parts[0]), triangles(whole, whole.geometries[0], whole.geometries[0].parts[0]));
-  }
+/// A wall with an opening, a sill and a balcony, and one with nothing.
+city::BuildingGeometry decoratedHouse() {
+  city::BuildingBuilder builder("decorated");
+  builder.beginPlane(city::PlaneKind::Wall, 0, {0, -1, 0});
+  builder.addQuad({0, 0, 0}, {3, 0, 0}, {3, 0, 3}, {0, 0, 3}, 0);
+  builder.addQuad({3, 0, 2}, {4, 0, 2}, {4, 0, 3}, {3, 0, 3}, 0);
+  builder.beginFlat();
+  builder.addQuad({0, 0, 0}, {4, 0, 0}, {4, 0, 3}, {0, 0, 3}, 0);
+  builder.beginExternalGeometry(1);
+  builder.addQuad({1, -1, 1}, {2, -1, 1}, {2, 0, 1}, {1, 0, 1}, 0);
+  builder.beginExternalGeometry(0.05f);
+  builder.addQuad({1, -0.05f, 1}, {2, -0.05f, 1}, {2, -0.05f, 2}, {1, -0.05f, 2}, 0);
+  builder.beginExternalOpening(0.3f);
+  builder.addQuad({3, 0.3f, 0}, {4, 0.3f, 0}, {4, 0.3f, 2}, {3, 0.3f, 2}, 0);
+  builder.beginPlane(city::PlaneKind::Wall, 0, {0, 1, 0});
+  builder.addQuad({4, 4, 0}, {0, 4, 0}, {0, 4, 3}, {4, 4, 3}, 0);
+  return builder.finish();
 }
 
-TEST(Arena, PlanesFollowEachOtherAndFillTheirGeometry) {
-  const Arena arena = buildingArena(twoHouses(), {});
-  for (const ArenaGeometry& g : arena.geometries) {
-    uint32_t next = g.parts[0].first;
-    for (uint32_t p = g.planes.first; p < g.planes.end(); ++p) {
-      EXPECT_EQ(arena.planes[p].parts[0].first, next);
-      next = arena.planes[p].parts[0].end();
+TEST(Arena, DrawsEachLevelOfEachTypeAndNothingElse) {
+  city::City city = twoHouses();
+  city.buildingTypes.push_back(decoratedHouse());
+  for (const Ordering ordering : {Ordering::ByState, Ordering::Scene}) {
+    const Arena arena = buildingArena(city, {}, ordering);
+    ASSERT_EQ(arena.geometries.size(), 3u);
+    for (size_t i = 0; i < 3; ++i) {
+      const city::BuildingGeometry& from = city.buildingTypes[i];
+      const ArenaGeometry& g = arena.geometries[i];
+      EXPECT_EQ(g.runs.count, ordering == Ordering::ByState ? 1 : from.planes.size());
+      EXPECT_EQ(drawnAt(arena, g, houselod::kFullDetail), expectedAt(from, houselod::kFullDetail));
+      EXPECT_TRUE(drawnAt(arena, g, houselod::kFullDetail, ArenaPart::CutOut).empty());
+      if (!houselod::levelsOf(from).flat) continue;
+      for (uint32_t level = 1; level <= g.steps + 1; ++level)
+        EXPECT_EQ(drawnAt(arena, g, static_cast<houselod::Level>(level)),
+                  expectedAt(from, static_cast<houselod::Level>(level)))
+            << from.name << ", level " << level;
     }
-    EXPECT_EQ(next, g.parts[0].end());
   }
+  EXPECT_EQ(buildingArena(city, {}, Ordering::ByState).geometries[2].steps, 2u);
+}
+
+/// A gable with an opening but no surface without it: flat, the opening still closes the hole.
+TEST(Arena, LeavesNoHoleOpenWhereAWallHasNoFlatSurface) {
+  city::BuildingBuilder builder("gable");
+  builder.beginPlane(city::PlaneKind::Gable, 0, {0, -1, 0});
+  builder.addQuad({0, 0, 0}, {3, 0, 0}, {3, 0, 3}, {0, 0, 3}, 0);
+  builder.beginExternalOpening(0.3f);
+  builder.addQuad({3, 0.3f, 0}, {4, 0.3f, 0}, {4, 0.3f, 3}, {3, 0.3f, 3}, 0);
+  city::City city;
+  city.buildingTypes = {builder.finish()};
+  const Arena arena = buildingArena(city, {}, Ordering::ByState);
+  EXPECT_EQ(drawnAt(arena, arena.geometries[0], 1), drawnAt(arena, arena.geometries[0], houselod::kFullDetail));
 }
 
 TEST(Arena, TrianglesWithHolesGoToTheirOwnPart) {
@@ -74,36 +133,38 @@ TEST(Arena, TrianglesWithHolesGoToTheirOwnPart) {
   std::vector<uint8_t> cutOut(tests::kLeaves + 1, 0);
   cutOut[tests::kLeaves] = 1;
   const Arena arena = treeArena(city, cutOut);
-  EXPECT_EQ(arena.geometries[0].parts[0].count, 3u * 8);
-  EXPECT_EQ(arena.geometries[0].parts[1].count, 3u * 4);
+  EXPECT_EQ(drawnAt(arena, arena.geometries[0], 0, ArenaPart::Opaque).size(), 8u);
+  EXPECT_EQ(drawnAt(arena, arena.geometries[0], 0, ArenaPart::CutOut).size(), 4u);
   EXPECT_TRUE(arena.has(ArenaPart::CutOut));
 }
 
 TEST(Arena, AGeometryNeverCrossesChunks) {
   const city::BuildingGeometry house = gabledHouse("house", 7, 5, 2.6f, 5);
-  const PlaneRun run{house.fullDetail, 0};
+  const city::MaterialId material = 0;
   const uint64_t room = 3 * house.vertices.size() * sizeof(city::Vertex);
   Arena arena;
-  for (int i = 0; i < 10; ++i) addGeometry(arena, house.vertices, house.indices, {&run, 1}, {}, room);
+  for (int i = 0; i < 10; ++i)
+    addGeometry(arena, house.vertices, house.indices, {{house.fullDetail, 0, 0}}, {&material, 1}, 0, {}, room);
   EXPECT_EQ(arena.chunks.size(), 4u);
   for (const ArenaChunk& chunk : arena.chunks) EXPECT_LE(chunk.vertices.size() * sizeof(city::Vertex), room);
   for (const ArenaGeometry& g : arena.geometries)
-    EXPECT_EQ(triangles(arena, g, g.parts[0]), triangles(arena, arena.geometries[0], arena.geometries[0].parts[0]));
+    EXPECT_EQ(drawnAt(arena, g, 0), drawnAt(arena, arena.geometries[0], 0));
 }
 
 TEST(Arena, AGeometryLargerThanAChunkGetsItsOwn) {
   const city::BuildingGeometry house = gabledHouse("house", 7, 5, 2.6f, 5);
-  const PlaneRun run{house.fullDetail, 0};
+  const city::MaterialId material = 0;
   Arena arena;
-  for (int i = 0; i < 2; ++i) addGeometry(arena, house.vertices, house.indices, {&run, 1}, {}, 1);
+  for (int i = 0; i < 2; ++i)
+    addGeometry(arena, house.vertices, house.indices, {{house.fullDetail, 0, 0}}, {&material, 1}, 0, {}, 1);
   EXPECT_EQ(arena.chunks.size(), 2u);
 }
 
 TEST(Arena, ATypeWithoutTrianglesDrawsNothing) {
   city::City city;
   city.buildingTypes.resize(1);
-  const Arena arena = buildingArena(city, {});
-  EXPECT_EQ(arena.geometries[0].parts[0].count, 0u);
+  const Arena arena = buildingArena(city, {}, Ordering::ByState);
+  EXPECT_TRUE(drawnAt(arena, arena.geometries[0], 0).empty());
 }
 
 }  // namespace
