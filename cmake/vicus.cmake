@@ -14,6 +14,11 @@ if(VICUS_SANITIZE)
                          -fno-sanitize-recover=all)
   target_link_options(vicus_options INTERFACE -fsanitize=${VICUS_SANITIZE})
 endif()
+option(VICUS_FUZZ "Build the libFuzzer targets (clang)" OFF)
+if(VICUS_FUZZ)
+  # What is fuzzed tells which ways it went.
+  target_compile_options(vicus_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
 target_include_directories(vicus_options INTERFACE ${CMAKE_SOURCE_DIR})
 
 # vicus_library(FOLDER [DEPENDS lib…]): static library vicus_FOLDER from the folder's own sources.

@@ -34,9 +34,11 @@ double neighbourAt(const Lot& lot, size_t r, size_t e) {
   return std::isnan(lot.neighbours[r][e]) ? -INFINITY : lot.neighbours[r][e];
 }
 
-double groundAt(const Lot& lot, size_t r, size_t e) {
-  if (r >= lot.ground.size() || e >= lot.ground[r].size() || std::isnan(lot.ground[r][e])) return lot.bottom;
-  return lot.ground[r][e];
+/// Ground at the ends of an edge.
+dvec2 groundAt(const Lot& lot, size_t r, size_t e) {
+  if (r >= lot.ground.size() || e >= lot.ground[r].size()) return dvec2(lot.bottom);
+  const dvec2 g = lot.ground[r][e];
+  return std::isfinite(g.x + g.y) ? g : dvec2(lot.bottom);
 }
 
 bool isParty(const Lot& lot, size_t r, size_t e) {
@@ -56,6 +58,8 @@ constexpr double kPartyOverlap = 0.3;
 
 /// So much of a wall stands over the ground for its rules, however high that rises: metres.
 constexpr double kLeastOverGround = 0.5;
+/// Walls along which the ground falls farther are cut into pieces, but for short ones: metres.
+constexpr double kFallOfAWall = 0.6, kShortestPiece = 4;
 
 class Builder {
  public:
@@ -311,26 +315,36 @@ class Builder {
       if (start > foot - below) below = std::max(0.0, foot - start), foot = std::max(foot, start);
       if (!(volume.top - foot > kPartyOverlap + 0.05)) return;
     }
-    // On a slope a wall's ground floor stands on the highest ground along it, so that no window sinks into the ground
-    // and none hangs a storey above it.
-    if (face != Face::Party && (volume.below > 0 || groundAt(lot_, r, e) > foot)) {
-      const double lowest = foot - below;
-      foot = std::clamp(groundAt(lot_, r, e), lowest, std::max(lowest, volume.top - kLeastOverGround));
-      below = foot - lowest;
+    const double lowest = foot - below;
+    builder_.addOccluder({glm::vec2(a), glm::vec2(b), static_cast<float>(lowest), static_cast<float>(volume.top)});
+    // On a slope the ground floor stands on the ground: a wall is cut where that falls, like a row of houses that
+    // climbs, and each piece stands on the highest ground along it. No window sinks, no door hangs far above.
+    dvec2 ground(foot);
+    if (face != Face::Party && (volume.below > 0 || std::max(groundAt(lot_, r, e).x, groundAt(lot_, r, e).y) > foot))
+      ground = groundAt(lot_, r, e);
+    const double fall = std::abs(ground.y - ground.x);
+    const auto pieces = static_cast<uint32_t>(
+        std::clamp(std::min(std::ceil(fall / kFallOfAWall), std::floor(length / kShortestPiece)), 1.0, 200.0));
+    for (uint32_t i = 0; i < pieces; ++i) {
+      const double from = static_cast<double>(i) / pieces, to = static_cast<double>(i + 1) / pieces;
+      const double highest = std::max(glm::mix(ground.x, ground.y, from), glm::mix(ground.x, ground.y, to));
+      const double stand = std::clamp(highest, lowest, std::max(lowest, volume.top - kLeastOverGround));
+      WallFrame frame;
+      frame.origin = dvec3(glm::mix(a, b, from), stand), frame.along = dvec3((b - a) / length, 0);
+      frame.width = length * (to - from), frame.height = volume.top - stand, frame.below = stand - lowest;
+      frame.thickness = thickness_;
+      wallPiece(frame, rule, wallNumber_[r][e], i == 0 ? seed : hash32(seed, i));
     }
-    const dvec2 along = (b - a) / length;
-    WallFrame frame;
-    frame.origin = dvec3(a, foot), frame.along = dvec3(along, 0);
-    frame.width = length, frame.height = volume.top - foot, frame.below = below, frame.thickness = thickness_;
-    const PaintLook& plain = use_.looks[style_.plainPaint];
+  }
+
+  void wallPiece(const WallFrame& frame, uint32_t rule, uint32_t number, uint32_t seed) {
     WallDetail detail;
-    if (rule != kNothing) detail = deriveWall(house_, rule, length, frame.height, wallNumber_[r][e], seed, made_);
+    if (rule != kNothing) detail = deriveWall(house_, rule, frame.width, frame.height, number, seed, made_);
+    const PaintLook& plain = use_.looks[style_.plainPaint];
     const PaintLook& base = detail.fills.empty() ? plain : use_.looks[detail.fills[0].paint];
     builder_.beginPlane(PlaneKind::Wall, base.material, glm::vec3(frame.normal()));
     addWallDetail(builder_, frame, detail, use_.looks, style_.plainPaint);
     addFar(frame, detail);
-    builder_.addOccluder(
-        {glm::vec2(a), glm::vec2(b), static_cast<float>(foot - below), static_cast<float>(volume.top)});
   }
 
   /// The wall as one picture, for far away: the style's bay repeated where the wall has openings or pictures of them.

@@ -20,8 +20,8 @@ struct Lot {
   std::vector<Ring> rings;                      ///< outer counter-clockwise, holes clockwise, simple
   std::vector<std::vector<double>> neighbours;  ///< for each ring and edge: height up to which a neighbour stands
                                                 ///< against it; −infinity or NaN: none. May be empty
-  std::vector<std::vector<double>> ground;      ///< for each ring and edge: the highest ground along it, where its
-                                                ///< windows and doors begin; NaN: `bottom`. May be empty
+  std::vector<std::vector<glm::dvec2>> ground;  ///< for each ring and edge: the ground at its ends, where its windows
+                                                ///< and doors begin; NaN: `bottom`. May be empty
   double bottom = 0;                            ///< of its walls: 0, or its underside hangs there
   double foundation = 0;                        ///< metres that its walls reach below `bottom`
   std::optional<RoofKind> roof;                 ///< where the sources state it, it takes the place of the style's

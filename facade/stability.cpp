@@ -89,6 +89,33 @@ std::vector<city::StabilityRow> rulesStability() {
   const Outcome wide = outcomeOf("Facade => RepeatX(width / 1000, Facade)", 1000, 4);
   add("a rule that calls itself a thousand times", "rules applied", static_cast<double>(wide.made.scopes), kMostScopes);
 
+  // Volumes that cannot be: the house stays as it was, and nothing flies away.
+  for (const auto& [name, rule] : {std::pair{"aisles wider than the house", "LeanTo(50, 1, tile, B)"},
+                                   {"aisles that rise over the eaves", "LeanTo(1, 90, tile, B)"},
+                                   {"a tower wider than the house", "Tower(1 / 0, 8, B)"},
+                                   {"a tower of −8 m", "Tower(3, -8, B)"},
+                                   {"turrets as wide as the walls", "Turrets(9, 8, B)"},
+                                   {"towers on towers", "Tower(3, 8, House)"}}) {
+    city::Diagnostics unheard;
+    const auto style =
+        parseRules(std::string("House => Extrude(6, ") + rule + ")\nB => Comp(side: Nothing())", "stiff", unheard);
+    double farthest = INFINITY;
+    if (style) {
+      StyleInUse use;
+      use.style = &*style, use.looks.resize(style->paints.size());
+      Lot lot;
+      lot.rings = {{{0, 0}, {9, 0}, {9, 7}, {0, 7}}};
+      city::BuildingBuilder builder("stiff");
+      Derivation made;
+      addHouse(builder, use, lot, made);
+      farthest = 0;
+      for (const city::Vertex& v : builder.finish().vertices)
+        for (const float c : {v.position.x, v.position.y, v.position.z})
+          farthest = std::max(farthest, std::isfinite(c) ? std::abs(static_cast<double>(c)) : double{INFINITY});
+    }
+    add(name, "metres that its corners lie from the first", farthest, 40);
+  }
+
   // Shapes of depth 0 stand a centimetre out, and openings of depth 0 are pictures: nothing divides by it.
   city::Diagnostics diagnostics;
   const auto flat = parseRules(

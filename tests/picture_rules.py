@@ -41,7 +41,7 @@ WALLS = {
     "SkipMask checker": mask("checker, Rep, (0, 0, 1, 1), 0.5, 1"),
     "Nothing": BOX + TWO + "Wall => Layer(A, SplitX((Rel, 1, Nothing()), (Rel, 1, B), (Rel, 1, Nothing())))\n",
     "a condition": BOX + TWO + PANE + "Wall : width < 5 => A\nWall => Layer(C, RepeatX(2, Pane))\n",
-    "weights @": BOX + TWO + "Wall => RepeatY(0.8, RepeatX(0.8, Some))\nSome @ 3 => A\nSome @ 1 => B\n",
+    "weights": BOX + TWO + "Wall => RepeatY(0.8, RepeatX(0.8, Some))\nSome @ 3 => A\nSome @ 1 => B\n",
     "panel": shape("panel", 0.03, textures='"window-framed"'),
     "block": shape("block", 0.3),
     "opening": shape("opening", -0.35, textures='"window-casement", ashlar'),
@@ -93,7 +93,7 @@ STREET = ["timber frame", "Dutch brick", "plaster of the 19th century", "limesto
 def run(*arguments):
     done = subprocess.run([str(a) for a in arguments], capture_output=True, text=True)
     if done.returncode != 0:
-        sys.exit(f"{' '.join(str(a) for a in arguments[:2])}: {done.stderr[-600:]}")
+        sys.exit(f"{' '.join(str(a) for a in arguments[:2])}: {(done.stderr + done.stdout)[:600]}")
     if "error" in done.stderr:
         sys.exit(done.stderr[-600:])
 
@@ -109,17 +109,25 @@ def without_metadata(jpeg: bytes) -> bytes:
     return bytes(out + jpeg[at:])
 
 
+def font() -> str:
+    """DejaVu Sans, which the window's words are written in, too."""
+    for folder in ("/usr/share/fonts", "/usr/local/share/fonts"):
+        for file in pathlib.Path(folder).rglob("DejaVuSans.ttf"):
+            return str(file)
+    sys.exit("DejaVuSans.ttf is missing (fonts-dejavu-core)")
+
+
 def sheet(pictures, columns, width, target):
     """Lays (file, label) beside each other; `width` pixels each."""
     rows = -(-len(pictures) // columns)
     labelled = []
     for file, label in pictures:
         out = file.with_name("l-" + file.name)
-        run("oiiotool", file, "--resize", f"{width}x0", "--fill:color=0.1,0.1,0.11", f"{width}x22+0+0", "--text:x=6:y=16:size=14:color=0.95,0.93,0.88",
-            label, "-d", "uint8", "-o", out)
+        run("oiiotool", file, "--resize", f"{width}x0", "--fill:color=0.1,0.1,0.11", f"{width}x22+0+0",
+            f"--text:x=6:y=16:size=14:font={font()}:color=0.95,0.93,0.88", label, "-d", "uint8", "-o", out)
         labelled.append(out)
     joined = labelled[0].with_name("sheet.jpg")
-    run("oiiotool", *labelled, "--mosaic:pad=3", f"{columns}x{rows}", "--compression", "jpeg:78", "-o", joined)
+    run("oiiotool", *labelled, "--mosaic:pad=3", f"{columns}x{rows}", "--quality", "80", "-o", joined)
     target.write_bytes(without_metadata(joined.read_bytes()))
 
 
@@ -162,9 +170,9 @@ def main():
     root = pathlib.Path(__file__).resolve().parent.parent
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        walls = houses(vicus, folder, WALLS, 4.2, lambda x: (x + 0.6, -8.5, 2.6, 74, -2), "walls")
+        walls = houses(vicus, folder, WALLS, 4.2, lambda x: (x + 0.2, -10.5, 2.9, 74, 1), "walls")
         sheet(walls, 7, 220, target / "operators-walls.jpg")
-        volumes = houses(vicus, folder, VOLUMES, 5.4, lambda x: (x - 9, -15, 7.5, 56, -9), "volumes")
+        volumes = houses(vicus, folder, VOLUMES, 5.4, lambda x: (x - 11, -19, 8.5, 56, -6), "volumes")
         sheet(volumes, 6, 256, target / "operators-volumes.jpg")
         street = []
         for view in STREET:

@@ -30,13 +30,10 @@ Extrusion::Part merged(const Extrusion::Part& part) {
       neighbours.push_back(part.neighbours[r][i]);
     }
     if (r >= part.ground.size()) continue;
-    // A wall of several edges stands on the highest ground of them all.
-    std::vector<double>& ground = out.ground.emplace_back();
+    std::vector<glm::dvec2>& ground = out.ground.emplace_back();
     for (size_t k = 0; k < corners.size(); ++k) {
-      const uint32_t end = corners[(k + 1) % corners.size()];
-      ground.push_back(part.ground[r][corners[k]]);
-      for (size_t i = (corners[k] + 1) % ring.size(); i != end; i = (i + 1) % ring.size())
-        ground.back() = std::max(ground.back(), part.ground[r][i]);
+      const size_t end = corners[(k + 1) % corners.size()], last = (end + ring.size() - 1) % ring.size();
+      ground.emplace_back(part.ground[r][corners[k]].x, part.ground[r][last].y);
     }
   }
   return out;

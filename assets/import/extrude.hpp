@@ -19,7 +19,7 @@ struct Extrusion {
     Polygon polygon;                              ///< valid
     std::vector<std::vector<double>> neighbours;  ///< for each ring and edge: height up to which a neighbour stands
                                                   ///< against it; −infinity: none
-    std::vector<std::vector<double>> ground;      ///< for each ring and edge: highest ground along it; empty: 0
+    std::vector<std::vector<glm::dvec2>> ground;  ///< for each ring and edge: the ground at its ends; empty: 0
     double height = 6;                            ///< metres from z = 0 to the eaves, > bottom
     double bottom = 0;                            ///< 0: stands on the foundation; else its underside hangs there
     RoofForm roof = RoofForm::Unknown;

@@ -140,7 +140,7 @@ std::string keyOf(const Extrusion& e) {
       for (const glm::dvec2& p : part.polygon.rings[r]) add(p.x), add(p.y);
       for (const double height : part.neighbours[r]) add(height);
       if (r < part.ground.size())
-        for (const double height : part.ground[r]) add(height);
+        for (const glm::dvec2& ends : part.ground[r]) add(ends.x), add(ends.y);
     }
   }
   return key;
@@ -229,19 +229,20 @@ GroundUnder groundUnderAll(const city::HeightField& terrain, const Outline& o) {
   return all;
 }
 
-/// The highest ground along each edge of a part that stands on it, above `base`; in steps of 0.25 m, so that equal
+/// The ground at the ends of each edge of a part that stands on it, above `base`; in steps of 0.25 m, so that equal
 /// footprints on nearly level ground remain equal.
-std::vector<std::vector<double>> groundAlong(const city::HeightField& terrain, const Polygon& polygon,
-                                             glm::dvec2 middle, double base) {
-  std::vector<std::vector<double>> out;
+std::vector<std::vector<glm::dvec2>> groundAlong(const city::HeightField& terrain, const Polygon& polygon,
+                                                 glm::dvec2 middle, double base) {
+  constexpr double kStep = 0.25, kLevel = 0.05;
+  std::vector<std::vector<glm::dvec2>> out;
   for (const Ring& ring : polygon.rings) {
-    std::vector<double>& edges = out.emplace_back();
-    for (size_t i = 0; i < ring.size(); ++i) {
-      const glm::dvec2 edge[] = {ring[i] + middle, ring[(i + 1) % ring.size()] + middle};
-      const GroundUnder under = groundUnder(terrain, edge);
-      constexpr double kStep = 0.25, kLevel = 0.05;
-      edges.push_back(under.known ? std::ceil((under.highest - base - kLevel) / kStep) * kStep + 0.0 : 0);
+    std::vector<double> at;
+    for (const glm::dvec2& p : ring) {
+      const std::optional<double> height = terrain.heightAt(p.x + middle.x, p.y + middle.y);
+      at.push_back(height ? std::ceil((*height - base - kLevel) / kStep) * kStep + 0.0 : 0);
     }
+    std::vector<glm::dvec2>& edges = out.emplace_back();
+    for (size_t i = 0; i < ring.size(); ++i) edges.emplace_back(at[i], at[(i + 1) % ring.size()]);
   }
   return out;
 }

@@ -8,6 +8,7 @@
 #include "city/random.hpp"
 #include "facade/outline.hpp"
 #include "facade/parse_rules.hpp"
+#include "facade/tower.hpp"
 
 namespace vicus::facade {
 namespace {
@@ -193,6 +194,87 @@ Wall => SampleTexture(plaster, Rep, (0, 0, 2, 2))
   EXPECT_NEAR(g.bounds.min.y, -0.4, 1e-4);
   EXPECT_EQ(g.externalGeometry.size(), 2u + 1u + 3u) << "two eaves, a stack, three dormers";
   EXPECT_NEAR(volumeOf(g, 0), 14 * 8 * 6 + 14 * 8 * 4 / 2, 1e-2) << "and what they stand on is whole";
+}
+
+TEST(House, ALeanToRunsAllRoundAndLeavesNoGap) {
+  const Style style = styleOf(R"(
+plain plaster
+House => Extrude(house.height, SplitZ((Rel, 1, Comp(side: Wall)), (Rel, 1, LeanTo(2, 1, tile, Comp(side: Wall, roof: Roof(flat, 0, 0, tile, Wall))))))
+Wall => SampleTexture(plaster, Rep, (0, 0, 2, 2))
+)");
+  Lot lot = lotOf({{0, 0}, {12, 0}, {12, 8}, {0, 8}}, 8);
+  // Below 4 m the whole, over it a frustum 1 m high, then a box of 8 × 4 m.
+  const double frustum = (12 * 8 + 8 * 4 + 4 * 10 * 6) / 6.0;
+  EXPECT_NEAR(volumeOf(build(style, lot), 0), 12 * 8 * 4 + frustum + 8 * 4 * 3, 1e-2);
+  // Where a neighbour stands the wall goes straight up: 2 m more on that side.
+  lot.neighbours = {{-INFINITY, 3, -INFINITY, -INFINITY}};
+  const BuildingGeometry terraced = build(style, lot);
+  EXPECT_NEAR(terraced.bounds.max.x, 12, 1e-5);
+  double plan = 0;
+  for (const city::Plane& plane : terraced.planes)
+    if (plane.kind == PlaneKind::Roof) plan += areaOf(terraced, plane.cut) * static_cast<double>(plane.normal.z);
+  EXPECT_NEAR(plan, 12 * 8, 1e-3);
+  // Without room the walls stay where they are.
+  EXPECT_NEAR(volumeOf(build(style, lotOf({{0, 0}, {12, 0}, {12, 3.5}, {0, 3.5}}, 8)), 0), 12 * 3.5 * 8, 1e-2);
+}
+
+TEST(House, TowersAreHousesOfTheirOwn) {
+  const Style style = styleOf(R"(
+plain plaster
+House => Layer(Extrude(house.height, Comp(side: Wall)), Tower(4, 20, Comp(side: Wall, roof: Roof(pyramid, 70 deg, 0, tile, Wall))))
+Wall => SampleTexture(plaster, Rep, (0, 0, 2, 2))
+)");
+  const BuildingGeometry g = build(style, lotOf({{0, 0}, {20, 0}, {20, 8}, {0, 8}}, 6));
+  EXPECT_NEAR(g.bounds.min.x, -0.5, 1e-5) << "before the western end";
+  const double spire = 2 * std::tan(glm::radians(70.0));
+  EXPECT_NEAR(g.bounds.max.z, 20 + spire, 1e-3);
+  EXPECT_NEAR(volumeOf(g, 0), 20 * 8 * 6 + 16 * 20 + 16 * spire / 3, 1e-2);
+  EXPECT_FALSE(endTower({{0, 0}, {20, 0}, {20, 0.5}, {0, 0.5}}, 4)) << "no room for one";
+  const std::vector<uint8_t> free(4, 0), party{0, 1, 0, 0};
+  const Ring square{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
+  EXPECT_EQ(cornerTurrets(square, free, 2).size(), 4u);
+  EXPECT_EQ(cornerTurrets(square, party, 2).size(), 2u);
+  EXPECT_TRUE(cornerTurrets(square, free, 8).empty());
+}
+
+TEST(House, OnASlopeWindowsStandOnTheGround) {
+  const Style style = styleOf(R"(
+plain plaster
+House => Extrude(house.height, Comp(side: Front, roof: Roof(flat, 0, 0, tile, Wall)))
+Front => Layer(Wall, RepeatX(2, Window))
+Wall => SampleTexture(plaster, Rep, (0, 0, 2, 2))
+Window => SplitY((Abs, 1, AttachScope(opening, -0.2, 30, 40, glass, ashlar)), (Rel, 1, Nothing()))
+)");
+  Lot lot = lotOf({{0, 0}, {12, 0}, {12, 8}, {0, 8}}, 6);
+  lot.foundation = 3;
+  // It rises from -1.5 m in the west to 1.5 m in the east.
+  lot.ground = {{{-1.5, 1.5}, {1.5, 1.5}, {1.5, -1.5}, {-1.5, -1.5}}};
+  const BuildingGeometry g = build(style, lot);
+  EXPECT_NEAR(volumeOf(g, -3), 12 * 8 * 9 - 0.2 * 2 * (12 + 8) * 1, 1e-2) << "closed but for what windows take";
+  ASSERT_EQ(g.externalOpenings.size(), 20u);
+  double most = 0;
+  for (const city::ExternalOpening& o : g.externalOpenings) {
+    double low = INFINITY, x = 0;
+    for (uint32_t i = o.indices.first; i < o.indices.end(); ++i) {
+      const glm::vec3 p = g.vertices[g.indices[i]].position;
+      low = std::min(low, static_cast<double>(p.z)), x = static_cast<double>(p.x);
+    }
+    const double ground = -1.5 + 3 * x / 12;
+    EXPECT_GT(low, ground - 0.2) << "at x " << x;
+    most = std::max(most, low - ground);
+  }
+  EXPECT_LT(most, 1.1) << "nothing hangs far above the ground";
+  // Ground over the eaves leaves a wall without windows, not one turned upside down.
+  lot.ground = {{{9, 9}, {9, 9}, {9, 9}, {9, 9}}};
+  EXPECT_NEAR(volumeOf(build(style, lot), -3), 12 * 8 * 9, 12);
+}
+
+TEST(House, TheEndOfARowLooksAtTheStreet) {
+  Lot lot = lotOf({{0, 0}, {6, 0}, {6, 14}, {0, 14}}, 6);
+  EXPECT_EQ(facesOf(lot)[0][1], Face::Front) << "free all round: its longest side";
+  lot.neighbours = {{-INFINITY, -INFINITY, -INFINITY, 5}};
+  EXPECT_EQ(facesOf(lot)[0][0], Face::Front);
+  EXPECT_EQ(facesOf(lot)[0][1], Face::Side);
 }
 
 TEST(House, SameLotSameHouse) {
