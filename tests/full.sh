@@ -35,3 +35,16 @@ if [ -d "$data" ]; then
   "$1/tests/fuzz/fuzz_mutate" "$data/malformed"
   "$1/tests/fuzz/fuzz_mutate" --copies 10000 examples/*.toml tests/fuzz/seeds/*
 fi
+echo "Rules fuzzed for ten minutes"
+if command -v clang++ > /dev/null; then
+  cmake -S . -B build-fuzz -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_C_COMPILER=clang \
+    -DVICUS_FUZZ=ON -DVICUS_SANITIZE=address,undefined > /dev/null
+  cmake --build build-fuzz --target fuzz_rules
+  found=$(mktemp -d)
+  trap 'rm -rf "$found"' EXIT
+  # What it finds that is new stays in a folder of its own; the kept corpus grows by hand (-merge=1).
+  build-fuzz/tests/fuzz/fuzz_rules -max_total_time=600 -max_len=4096 -timeout=20 -rss_limit_mb=2048 -verbosity=0 \
+    -artifact_prefix=build-fuzz/ "$found" tests/fuzz/rules assets/styles
+else
+  echo "No clang at hand: rules are not fuzzed."
+fi
