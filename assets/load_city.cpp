@@ -277,7 +277,8 @@ LoadResult loadThroughCache(std::span<const std::string> inputs, const SceneDesc
   LoadResult result;
   if (const auto bytes = file->cache.read(kKind, place.hash, kBuilderVersion)) {
     if (auto cached = decodeCity(*bytes))
-      result.city = std::move(cached->city), result.diagnostics = std::move(cached->diagnostics), result.fromCache = true;
+      result.city = std::move(cached->city), result.diagnostics = std::move(cached->diagnostics),
+      result.fromCache = true;
     else
       file->diagnostics.warn(place.file.string(), "", "the city in the cache is damaged and is made anew");
   }
