@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <unordered_map>
+#include <utility>
 
 #include "city/random.hpp"
 
@@ -21,6 +21,7 @@ namespace {
 
 constexpr double kLookAhead = 0.6;  // metres before and behind that a walker's heading is taken over
 constexpr double kNear = 2.5;       // metres ahead and behind in which one makes way
+constexpr double kMostWait = 0.8;   // metres that who lets another go stays behind
 
 /// A point of a route: where its middle is, and what is to the right.
 struct OnRoute {
@@ -56,11 +57,6 @@ OnRoute pointAt(const WalkRoute& route, double along) {
   return out;
 }
 
-dvec2 planAt(const WalkRoute& route, double along, double side) {
-  const OnRoute p = pointAt(route, along);
-  return dvec2(p.middle) + p.right * (side * p.free);
-}
-
 /// Metres a second at which a body's legs go as they were made or recorded.
 double paceOf(const city::Character& body, Role role) {
   constexpr double kUsual = 1.2, kSlowest = 0.25, kFastest = 2.5;
@@ -88,38 +84,25 @@ double bump(double x) {
   return y > 0 ? y * y : 0.0;
 }
 
-/// Positions before anybody makes way.
-struct Walker {
-  dvec2 at, ahead, right;
-  double along;
-  double steady;  ///< who turns round on the spot makes no way and asks for none
-  bool walking;
-};
+uint64_t squareOf(dvec2 p) {
+  const auto part = [](double v) {
+    return static_cast<uint64_t>(
+        static_cast<uint32_t>(static_cast<int32_t>(std::floor(std::clamp(v / kNear, -1e9, 1e9)))));
+  };
+  return part(p.x) << 32U | part(p.y);
+}
 
-/// Numbers of people by the square of the plan that they are in.
-class Squares {
- public:
-  explicit Squares(const std::vector<Walker>& all) {
-    for (uint32_t i = 0; i < all.size(); ++i) cells_[keyOf(all[i].at)].push_back(i);
-  }
-  template <typename Visit>
-  void about(dvec2 at, const Visit& visit) const {
-    for (int dy = -1; dy <= 1; ++dy)
-      for (int dx = -1; dx <= 1; ++dx)
-        if (const auto cell = cells_.find(keyOf(at + kNear * dvec2(dx, dy))); cell != cells_.end())
-          for (const uint32_t i : cell->second) visit(i);
-  }
-
- private:
-  static uint64_t keyOf(dvec2 p) {
-    const auto part = [](double v) {
-      return static_cast<uint64_t>(
-          static_cast<uint32_t>(static_cast<int32_t>(std::floor(std::clamp(v / kNear, -1e9, 1e9)))));
-    };
-    return part(p.x) << 32U | part(p.y);
-  }
-  std::unordered_map<uint64_t, std::vector<uint32_t>> cells_;
-};
+/// Calls visit(number) for everybody in the square of a place and the eight about it.
+template <typename Visit>
+void about(const Crowd& crowd, dvec2 at, const Visit& visit) {
+  for (int dy = -1; dy <= 1; ++dy)
+    for (int dx = -1; dx <= 1; ++dx) {
+      const uint64_t square = squareOf(at + kNear * dvec2(dx, dy));
+      for (auto i = std::lower_bound(crowd.squares.begin(), crowd.squares.end(), std::pair(square, 0U));
+           i != crowd.squares.end() && i->first == square; ++i)
+        visit(i->second);
+    }
+}
 
 }  // namespace
 
@@ -160,77 +143,95 @@ std::vector<Person> peopleOf(const People& people, size_t count) {
   return out;
 }
 
-std::vector<Place> placesAt(const People& people, std::span<const Person> persons, const city::HeightField* terrain,
-                            double time) {
+Crowd crowdAt(const People& people, std::span<const Person> persons, double time) {
   if (!std::isfinite(time)) time = 0;
-  std::vector<Walker> all;
-  all.reserve(persons.size());
+  Crowd crowd;
+  crowd.walkers.reserve(persons.size());
+  crowd.squares.reserve(persons.size());
   for (const Person& p : persons) {
-    Walker w{dvec2(p.position), {1, 0}, {0, -1}, 0, 1, walks(people, p)};
+    Walker w;
+    w.at = dvec2(p.position), w.middle = p.position, w.walking = walks(people, p);
     if (w.walking) {
-      const WalkRoute& route = people.routes[p.route];
       w.along = p.start + static_cast<double>(p.speed) * time;
-      w.at = planAt(route, w.along, static_cast<double>(p.side));
-      const OnRoute point = pointAt(route, w.along);
-      w.right = point.right, w.steady = point.steady;
+      const OnRoute point = pointAt(people.routes[p.route], w.along);
+      w.at = dvec2(point.middle) + point.right * (static_cast<double>(p.side) * point.free);
+      w.middle = point.middle, w.right = point.right, w.steady = point.steady;
       w.ahead = {-w.right.y, w.right.x};
     }
-    all.push_back(w);
+    crowd.squares.emplace_back(squareOf(w.at), static_cast<uint32_t>(crowd.walkers.size()));
+    crowd.walkers.push_back(w);
   }
+  std::sort(crowd.squares.begin(), crowd.squares.end());
+  crowd.widest.reserve(people.routes.size());
+  for (const WalkRoute& r : people.routes) {
+    float widest = 0;
+    for (const WalkRoute::Point& p : r.points) widest = std::max(widest, p.free);
+    crowd.widest.push_back(static_cast<double>(widest));
+  }
+  return crowd;
+}
 
-  const Squares squares(all);
-  std::vector<Place> out(persons.size());
-  for (uint32_t i = 0; i < persons.size(); ++i) {
-    const Person& person = persons[i];
-    const Walker& me = all[i];
-    if (!me.walking) {
-      out[i] = {person.position, person.heading, 0};
-      continue;
+double reachOf(const Crowd& crowd, std::span<const Person> persons, uint32_t i) {
+  return crowd.walkers[i].walking ? kMostWait + crowd.widest[persons[i].route] : 0;
+}
+
+Place placeOf(const Crowd& crowd, const People& people, std::span<const Person> persons,
+              const city::HeightField* terrain, uint32_t i) {
+  const Person& person = persons[i];
+  const Walker& me = crowd.walkers[i];
+  if (!me.walking) return {person.position, person.heading, 0};
+  // To the right, and on along the way.
+  double right = 0, on = 0;
+  about(crowd, me.at, [&](uint32_t j) {
+    if (j == i) return;
+    const Walker& other = crowd.walkers[j];
+    const dvec2 to = other.at - me.at;
+    const double ahead = glm::dot(to, me.ahead), toRight = glm::dot(to, me.right);
+    const double near = bump(ahead / kNear) * me.steady * other.steady;
+    if (near <= 0 || std::abs(toRight) > kNear) return;
+    if (!other.walking) {
+      right -= near * asideFor(toRight);  // pass on the left of who stands
+      return;
     }
-    // To the right, and on along the way.
-    double right = 0, on = 0;
-    squares.about(me.at, [&](uint32_t j) {
-      if (j == i) return;
-      const Walker& other = all[j];
-      const dvec2 to = other.at - me.at;
-      const double ahead = glm::dot(to, me.ahead), toRight = glm::dot(to, me.right);
-      const double near = bump(ahead / kNear) * me.steady * other.steady;
-      if (near <= 0 || std::abs(toRight) > kNear) return;
-      if (!other.walking) {
-        right -= near * asideFor(toRight);  // pass on the left of who stands
-        return;
-      }
-      const double same = glm::dot(me.ahead, other.ahead);
-      if (same < 0) {
-        right += -same * near * 0.5 * asideFor(-toRight);  // both keep right
-      } else {
-        // The faster passes on the left.
-        const float mine = person.speed, his = persons[j].speed;
-        const bool faster = mine != his ? mine > his : i < j;
-        right += same * near * 0.5 * (faster ? -asideFor(toRight) : asideFor(-toRight));
-      }
-      // Whose way is crossed from the right lets the other go.
-      const double crossing = 1 - std::abs(same);
-      const double fromRight = std::clamp(toRight / kPassing, 0.0, 1.0) * me.steady * other.steady;
-      on -= 0.8 * crossing * fromRight * bump(glm::length(to) / kNear);
-    });
-    const WalkRoute& route = people.routes[person.route];
-    const double along = me.along + std::clamp(on, -0.8, 0.0);
-    const auto sideAt = [&](double s) {
-      const OnRoute p = pointAt(route, s);
-      const double wanted = static_cast<double>(person.side) * p.free + std::clamp(right, -0.9, 0.9);
-      return dvec2(p.middle) + p.right * std::clamp(wanted, -0.3 * p.free, p.free);
-    };
-    const OnRoute here = pointAt(route, along);
-    const dvec2 at = sideAt(along);
-    const dvec2 facing = sideAt(along + kLookAhead) - sideAt(along - kLookAhead);
-    Place& place = out[i];
-    place.position = dvec3(at, here.middle.z);
-    if (terrain && !here.deck) place.position.z = terrain->heightAt(at.x, at.y).value_or(here.middle.z);
-    place.heading = static_cast<float>(glm::length(facing) > 1e-9 ? std::atan2(facing.y, facing.x)
-                                                                  : std::atan2(me.ahead.y, me.ahead.x));
-    place.walked = along;
-  }
+    const double same = glm::dot(me.ahead, other.ahead);
+    if (same < 0) {
+      right += -same * near * 0.5 * asideFor(-toRight);  // both keep right
+    } else {
+      // The faster passes on the left.
+      const float mine = person.speed, his = persons[j].speed;
+      const bool faster = mine != his ? mine > his : i < j;
+      right += same * near * 0.5 * (faster ? -asideFor(toRight) : asideFor(-toRight));
+    }
+    // Whose way is crossed from the right lets the other go.
+    const double crossing = 1 - std::abs(same);
+    const double fromRight = std::clamp(toRight / kPassing, 0.0, 1.0) * me.steady * other.steady;
+    on -= kMostWait * crossing * fromRight * bump(glm::length(to) / kNear);
+  });
+  const WalkRoute& route = people.routes[person.route];
+  const double along = me.along + std::clamp(on, -kMostWait, 0.0);
+  const auto sideAt = [&](double s) {
+    const OnRoute p = pointAt(route, s);
+    const double wanted = static_cast<double>(person.side) * p.free + std::clamp(right, -0.9, 0.9);
+    return dvec2(p.middle) + p.right * std::clamp(wanted, -0.3 * p.free, p.free);
+  };
+  const OnRoute here = pointAt(route, along);
+  const dvec2 at = sideAt(along);
+  const dvec2 facing = sideAt(along + kLookAhead) - sideAt(along - kLookAhead);
+  Place place;
+  place.position = dvec3(at, here.middle.z);
+  if (terrain && !here.deck) place.position.z = terrain->heightAt(at.x, at.y).value_or(here.middle.z);
+  place.heading = static_cast<float>(glm::length(facing) > 1e-9 ? std::atan2(facing.y, facing.x)
+                                                                : std::atan2(me.ahead.y, me.ahead.x));
+  place.walked = along;
+  return place;
+}
+
+std::vector<Place> placesAt(const People& people, std::span<const Person> persons, const city::HeightField* terrain,
+                            double time) {
+  const Crowd crowd = crowdAt(people, persons, time);
+  std::vector<Place> out;
+  out.reserve(persons.size());
+  for (uint32_t i = 0; i < persons.size(); ++i) out.push_back(placeOf(crowd, people, persons, terrain, i));
   return out;
 }
 

@@ -17,6 +17,7 @@ using city::Person;
 using glm::dvec3;
 
 constexpr double kNearest = 0.3;  // metres: who is nearer to the eye is no larger
+constexpr double kUp = 8;         // metres that the ground beside a way may lie above or below it
 
 /// As assets/shaders/avatar_shadow.vert draws it: away from the sun, 3 m at most.
 glm::dvec2 shadowOf(const city::Environment& light) {
@@ -79,7 +80,7 @@ PeopleScene lookAtPeople(const city::City& city, const city::Knobs& knobs) {
     for (const auto& point : r.points) ways.extend(point.position);
   if (!ways.empty()) {
     // Beside the way by its free width, and up and down with the ground there.
-    constexpr double kBeside = 6, kUp = 8;
+    constexpr double kBeside = 6;
     scene.reach.extend(
         city::outward({ways.min - dvec3(kBeside, kBeside, kUp), ways.max + dvec3(kBeside, kBeside, kUp)}));
   }
@@ -88,22 +89,32 @@ PeopleScene lookAtPeople(const city::City& city, const city::Knobs& knobs) {
 
 void placePeople(const city::City& city, const PeopleScene& scene, const culling::BoxTest* test,
                  city::FramePlan& plan) {
-  const bool terrain = city.terrain && !city.terrain->empty();
-  const std::vector<avatars::Place> places =
-      avatars::placesAt(city.people, scene.persons, terrain ? &*city.terrain : nullptr, plan.view.time);
-  for (uint32_t i = 0; i < places.size(); ++i) {
+  const city::HeightField* terrain = city.terrain && !city.terrain->empty() ? &*city.terrain : nullptr;
+  const avatars::Crowd crowd = avatars::crowdAt(city.people, scene.persons, plan.view.time);
+  const auto outside = [&](const Aabbf& bounds) {
+    uint32_t mask = test->allPlanes;
+    ++plan.counts.boxTests;
+    return culling::classify(*test, bounds, mask) == culling::Containment::Outside;
+  };
+  for (uint32_t i = 0; i < scene.persons.size(); ++i) {
     const Person& person = scene.persons[i];
     const city::Character& body = city.people.characters[person.character];
-    const Aabbf bounds = boundsAt(body, places[i].position, static_cast<double>(person.scale), scene.shadow);
-    if (test) {
-      uint32_t mask = test->allPlanes;
-      ++plan.counts.boxTests;
-      if (culling::classify(*test, bounds, mask) == culling::Containment::Outside) continue;
+    const double scale = static_cast<double>(person.scale);
+    if (test && crowd.walkers[i].walking) {
+      // First all that he may be in: few are near the view.
+      const double reach = avatars::reachOf(crowd, scene.persons, i);
+      const dvec3 middle = crowd.walkers[i].middle, about(reach, reach, kUp);
+      Aabbf wide;
+      for (const dvec3& end : {middle - about, middle + about}) wide.extend(boundsAt(body, end, scale, scene.shadow));
+      if (outside(wide)) continue;
     }
+    const avatars::Place place = avatars::placeOf(crowd, city.people, scene.persons, terrain, i);
+    const Aabbf bounds = boundsAt(body, place.position, scale, scene.shadow);
+    if (test && outside(bounds)) continue;
     city::AvatarDraw draw;
     draw.person = i, draw.character = person.character, draw.role = person.role, draw.scale = person.scale;
     draw.dress = person.dress < body.dresses.size() ? person.dress : 0;
-    draw.position = places[i].position, draw.heading = places[i].heading, draw.bounds = bounds;
+    draw.position = place.position, draw.heading = place.heading, draw.bounds = bounds;
     plan.avatars.drawn.push_back(draw);
   }
   plan.avatars.inFrustum = plan.avatars.drawn.size();

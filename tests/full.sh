@@ -30,6 +30,8 @@ echo "Rules: 10 000 random footprints over all styles"
 "$1/tests/test_assets" --gtest_also_run_disabled_tests --gtest_filter='DISABLED_StylesInFull.*' --gtest_brief=1
 echo "People: strips of their walks, and how far their feet slide"
 "$1/tests/test_viewer" --gtest_also_run_disabled_tests --gtest_filter='*DISABLED_PeopleStripsInFull*' --gtest_brief=1
+echo "A mesh of five million triangles"
+python3 tests/measure_mesh.py "$vicus"
 echo "Malformed files, and 10 000 damaged copies of small valid ones"
 if [ -d "$data" ]; then
   "$1/tests/fuzz/fuzz_mutate" "$data/malformed"

@@ -56,26 +56,8 @@ void addUnderside(city::BuildingBuilder& builder, const Extrusion::Part& part, c
 
 }  // namespace
 
-std::optional<facade::RoofKind> roofKindOf(RoofForm form) {
-  switch (form) {
-    case RoofForm::Flat:
-      return facade::RoofKind::Flat;
-    case RoofForm::Gable:
-      return facade::RoofKind::Gable;
-    case RoofForm::Hip:
-      return facade::RoofKind::Hip;
-    case RoofForm::Pyramid:
-      return facade::RoofKind::Pyramid;
-    case RoofForm::Slope:
-      return facade::RoofKind::Shed;
-    case RoofForm::Unknown:
-      break;
-  }
-  return std::nullopt;
-}
-
-double roofRise(const Polygon& footprint, RoofForm form, double pitch) {
-  return facade::roofOver(footprint.rings, {}, {roofKindOf(form).value_or(facade::RoofKind::Gable), pitch, 0}).height;
+double roofRise(const Polygon& footprint, facade::RoofKind form, double pitch) {
+  return facade::roofOver(footprint.rings, {}, {form, pitch, 0}).height;
 }
 
 city::BuildingGeometry extrude(const Extrusion& e, const facade::StyleInUse& style, std::string name,
@@ -94,7 +76,7 @@ city::BuildingGeometry extrude(const Extrusion& e, const facade::StyleInUse& sty
     lot.rings = part.polygon.rings, lot.neighbours = part.neighbours;
     if (!(part.bottom > 0)) lot.ground = part.ground;
     lot.bottom = part.bottom, lot.foundation = part.bottom > 0 ? 0 : e.foundation;
-    lot.roof = roofKindOf(part.roof), lot.roofRise = part.roofHeight > 0 ? part.roofHeight : 0;
+    lot.roof = part.roof, lot.roofRise = part.roofHeight > 0 ? part.roofHeight : 0;
     lot.facts.height = part.height - part.bottom, lot.facts.year = e.year, lot.facts.seed = e.seed;
     lot.facts.use = e.use, lot.facts.material = e.material, lot.facts.roof = e.roof;
     facade::addHouse(builder, style, lot, made);

@@ -22,8 +22,8 @@ struct Extrusion {
     std::vector<std::vector<glm::dvec2>> ground;  ///< for each ring and edge: the ground at its ends; empty: 0
     double height = 6;                            ///< metres from z = 0 to the eaves, > bottom
     double bottom = 0;                            ///< 0: stands on the foundation; else its underside hangs there
-    RoofForm roof = RoofForm::Unknown;
-    double roofHeight = kUnknown;  ///< from eaves to ridge, metres; unknown: by the pitch
+    std::optional<facade::RoofKind> roof;         ///< what the source states; nothing: what the style says
+    double roofHeight = kUnknown;                 ///< from eaves to ridge, metres; unknown: by the pitch
   };
   std::vector<Part> parts;
   double foundation = 0;            ///< metres that the walls reach below z = 0, ≥ 0
@@ -33,11 +33,8 @@ struct Extrusion {
   double year = 0;                  ///< 0: unknown
 };
 
-/// The form that a source states, as rules name it; nothing where it states none.
-std::optional<facade::RoofKind> roofKindOf(RoofForm form);
-
 /// Metres from the eaves to the ridge or tip of the roof that a footprint gets.
-double roofRise(const Polygon& footprint, RoofForm form, double pitch);
+double roofRise(const Polygon& footprint, facade::RoofKind form, double pitch);
 
 /// The building by the rules of its style; points of walls in line merged to 3 cm. Adds what was derived to `made`.
 city::BuildingGeometry extrude(const Extrusion& extrusion, const facade::StyleInUse& style, std::string name,

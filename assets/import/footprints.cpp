@@ -172,7 +172,8 @@ void cleanOne(Outline& o, glm::dvec3 origin) {
       if (!(raw.height > 0) && raw.top > 0) {
         constexpr double kLeastWall = 0.3;  // share of the height
         const double free = raw.top - part.bottom;
-        if (!(part.roofHeight > 0)) part.roofHeight = roofRise(part.polygon, raw.roof, glm::radians(28.0));
+        if (!(part.roofHeight > 0))
+          part.roofHeight = roofRise(part.polygon, raw.roof.value_or(facade::RoofKind::Gable), glm::radians(28.0));
         part.roofHeight = std::min(part.roofHeight, (1 - kLeastWall) * free);
         part.height = raw.top - part.roofHeight;
       }

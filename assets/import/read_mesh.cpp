@@ -18,6 +18,7 @@
 #include "assets/import/apart.hpp"
 #include "assets/import/cityjson_geometry.hpp"
 #include "assets/import/gltf.hpp"
+#include "assets/import/gltf_faults.hpp"
 #include "assets/import/mesh_packing.hpp"
 #include "assets/import/pictures.hpp"
 #include "city/aabb.hpp"
@@ -300,6 +301,14 @@ std::vector<SourceMaterial> flatten(const DracoFile& from, const std::string& fi
   return materials;
 }
 
+/// Says that a mesh cannot be read: where it can be found out the place, else in the library's words.
+void fail(const std::string& file, const std::string& why, city::Diagnostics& diagnostics) {
+  if (const auto fault = gltf::firstFaultIn(file))
+    diagnostics.error(file, fault->place, "the mesh cannot be read: " + fault->what);
+  else
+    diagnostics.error(file, "", "the mesh cannot be read" + (why.empty() ? "" : ": " + why.substr(0, 300)));
+}
+
 std::optional<MeshContent> readHere(const std::string& file, const MeshOptions& options,
                                     city::Diagnostics& diagnostics) {
   const std::string extension = extensionOf(file);
@@ -314,8 +323,7 @@ std::optional<MeshContent> readHere(const std::string& file, const MeshOptions& 
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     const aiScene* scene = importer.ReadFile(file, aiProcess_Triangulate | aiProcess_SortByPType);
     if (!scene || !scene->mRootNode) {
-      const std::string why = importer.GetErrorString();
-      diagnostics.error(file, "", "the mesh cannot be read" + (why.empty() ? "" : ": " + why.substr(0, 300)));
+      fail(file, importer.GetErrorString(), diagnostics);
       return std::nullopt;
     }
     if (!flatten(*scene, content.mesh, points, lost)) {
@@ -366,7 +374,7 @@ std::optional<MeshContent> readMesh(const std::string& file, const MeshOptions& 
       },
       limits, why);
   if (packed) return unpack(*packed, diagnostics);
-  diagnostics.error(file, "", "the mesh cannot be read: " + why);
+  fail(file, why, diagnostics);
   return std::nullopt;
 }
 

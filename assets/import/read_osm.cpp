@@ -21,6 +21,8 @@
 namespace vicus::assets {
 namespace {
 
+using facade::RoofKind;
+
 constexpr double kDegreesPerMetre = 1 / 111320.0;
 
 /// The tags of one feature. Fields of the driver first, then those that it packs into `other_tags`.
@@ -83,24 +85,23 @@ class Tags {
   std::map<std::string, std::string> tags_;
 };
 
-RoofForm roofOf(const std::string& shape) {
-  static const std::map<std::string, RoofForm> kForms = {
-      {"flat", RoofForm::Flat},       {"gabled", RoofForm::Gable},  {"gambrel", RoofForm::Gable},
-      {"saltbox", RoofForm::Gable},   {"round", RoofForm::Gable},   {"hipped", RoofForm::Hip},
-      {"half-hipped", RoofForm::Hip}, {"mansard", RoofForm::Hip},   {"pyramidal", RoofForm::Pyramid},
-      {"dome", RoofForm::Pyramid},    {"onion", RoofForm::Pyramid}, {"cone", RoofForm::Pyramid},
-      {"skillion", RoofForm::Slope},  {"lean_to", RoofForm::Slope}, {"monopitched", RoofForm::Slope}};
+std::optional<RoofKind> roofOf(const std::string& shape) {
+  static const std::map<std::string, RoofKind> kForms = {
+      {"flat", RoofKind::Flat},           {"gabled", RoofKind::Gable},    {"gambrel", RoofKind::Gambrel},
+      {"saltbox", RoofKind::Gable},       {"round", RoofKind::Gambrel},   {"hipped", RoofKind::Hip},
+      {"half-hipped", RoofKind::HalfHip}, {"mansard", RoofKind::Mansard}, {"pyramidal", RoofKind::Pyramid},
+      {"dome", RoofKind::Dome},           {"onion", RoofKind::Dome},      {"cone", RoofKind::Pyramid},
+      {"skillion", RoofKind::Shed},       {"lean_to", RoofKind::Shed},    {"monopitched", RoofKind::Shed}};
   const auto found = kForms.find(shape);
-  return found == kForms.end() ? RoofForm::Unknown : found->second;
+  return found == kForms.end() ? std::nullopt : std::optional(found->second);
 }
 
 /// What stands in for a roof shape that is not built as such; empty where none does.
 std::string simplified(const std::string& shape) {
   static const std::map<std::string, const char*> kInstead = {
-      {"gambrel", "gables"}, {"saltbox", "gables"}, {"round", "gables"},   {"half-hipped", "hips"},
-      {"mansard", "hips"},   {"dome", "pyramids"},  {"onion", "pyramids"}, {"cone", "pyramids"}};
+      {"saltbox", "gables"}, {"round", "gambrels"}, {"onion", "domes"}};
   if (const auto found = kInstead.find(shape); found != kInstead.end()) return found->second;
-  return !shape.empty() && roofOf(shape) == RoofForm::Unknown ? "what suits the outline" : "";
+  return !shape.empty() && !roofOf(shape) ? "what suits the outline" : "";
 }
 
 FootprintPart partOf(Polygon polygon, const Tags& tags) {
@@ -115,12 +116,12 @@ FootprintPart partOf(Polygon polygon, const Tags& tags) {
   part.roofHeight = tags.metres("roof:height");
   if (const double levels = tags.number("roof:levels"); !(part.roofHeight > 0) && levels > 0)
     part.roofHeight = levels * kStoreyHeight;
-  if (part.roof == RoofForm::Flat) part.roofHeight = kUnknown;
+  if (part.roof == RoofKind::Flat) part.roofHeight = kUnknown;
   if (!(part.top > 0)) {
     double levels = tags.number("building:levels");
     if (!(levels > 0)) levels = tags.number("levels");
     if (levels > 0) part.height = levels * kStoreyHeight;
-  } else if (part.roof == RoofForm::Flat) {
+  } else if (part.roof == RoofKind::Flat) {
     part.height = part.top;
   }
   return part;

@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "assets/import/polygon.hpp"
 #include "assets/import/style_rules.hpp"
 #include "city/city.hpp"
+#include "facade/rules.hpp"
 
 namespace vicus::assets {
 
@@ -27,16 +29,14 @@ struct SourceMaterial {
   bool operator==(const SourceMaterial&) const = default;
 };
 
-enum class RoofForm : uint8_t { Unknown, Flat, Gable, Hip, Pyramid, Slope };
-
 /// One outline of a building and what rises over it. Heights in metres above the ground.
 struct FootprintPart {
   Polygon polygon;           ///< of any winding, perhaps broken
   double height = kUnknown;  ///< to the eaves; unknown: the building's
   double top = kUnknown;     ///< to the ridge; where it is known and `height` is not, the eaves follow from the roof
   double bottom = 0;         ///< 0: stands on the ground, else hangs above it
-  RoofForm roof = RoofForm::Unknown;
-  double roofHeight = kUnknown;  ///< from eaves to ridge
+  std::optional<facade::RoofKind> roof;  ///< the form that the source states
+  double roofHeight = kUnknown;          ///< from eaves to ridge
 };
 
 /// A building as its outline on the plan. Coordinates in the source's CRS until they are projected.

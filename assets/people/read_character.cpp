@@ -1,5 +1,6 @@
 #include "assets/people/read_character.hpp"
 
+#include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -14,6 +15,7 @@
 
 #include "assets/cache/city_codec.hpp"
 #include "assets/import/apart.hpp"
+#include "assets/import/gltf_faults.hpp"
 #include "assets/materials/image_file.hpp"
 #include "assets/people/body_builder.hpp"
 #include "assets/people/townspeople.hpp"
@@ -320,16 +322,25 @@ class Reader {
   mat4 axes_{1};
 };
 
+/// Says that a character cannot be read: where it can be found out the place, else in the library's words.
+void fail(const std::string& file, const std::string& why, city::Diagnostics& diagnostics) {
+  if (const auto fault = gltf::firstFaultIn(file))
+    diagnostics.error(file, fault->place, "could not be read: " + fault->what);
+  else
+    diagnostics.error(file, "", "could not be read: " + why);
+}
+
 /// In the other process: the character, its clips and its paint as the cache writes cities, each clip with a body of
 /// its own.
 std::string readHere(const std::string& file) {
   CachedCity out;
   Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);  // one joint for each bone, not a chain
   const aiScene* scene =
       importer.ReadFile(file, aiProcess_Triangulate | aiProcess_GenSmoothNormals | aiProcess_JoinIdenticalVertices |
                                   aiProcess_LimitBoneWeights | aiProcess_ValidateDataStructure);
   if (!scene) {
-    out.diagnostics.error(file, "", importer.GetErrorString());
+    fail(file, importer.GetErrorString(), out.diagnostics);
     return encodeCity(out);
   }
   if (auto read = Reader(*scene, file, out.diagnostics).read()) {
@@ -393,7 +404,7 @@ std::optional<CharacterFile> readCharacter(const std::string& file, city::Diagno
   const std::optional<std::string> bytes = runApart([&] { return readHere(file); }, {}, why);
   auto read = bytes ? decodeCity(*bytes) : std::nullopt;
   if (!read) {
-    diagnostics.error(file, "", "could not be read: " + (why.empty() ? std::string("damaged") : why));
+    fail(file, why.empty() ? "damaged" : why, diagnostics);
     return std::nullopt;
   }
   auto& messages = read->diagnostics.messages;

@@ -105,7 +105,7 @@ TEST(OpenStreetMap, RoofsThatAreSimplifiedAreNamed) {
   const LoadResult r = load(folder.write("town.osm", osm.text()));
   EXPECT_THAT(messagesOf(r.diagnostics),
               HasSubstr("roofs that are simplified: 1 crosspitched as what suits the outline, "
-                        "2 onion as pyramids, 1 round as gables"));
+                        "2 onion as domes, 1 round as gambrels"));
 }
 
 TEST(OpenStreetMap, StreetsWaterTreesAndWallsAreContent) {

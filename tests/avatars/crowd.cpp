@@ -162,6 +162,22 @@ TEST(Crowd, MakesWay) {
   EXPECT_LT(static_cast<double>(touching), 0.05 * static_cast<double>(pairs));
 }
 
+TEST(Crowd, NobodyIsFartherFromTheMiddleOfHisWayThanIsSaid) {
+  const city::People people = town();
+  const auto persons = peopleOf(people, 300);
+  double most = 0;
+  for (int k = 0; k < 200; ++k) {
+    const Crowd crowd = crowdAt(people, persons, 2.3 * k);
+    for (uint32_t i = 0; i < persons.size(); ++i) {
+      const Place place = placeOf(crowd, people, persons, nullptr, i);
+      const double away = glm::distance(dvec2(place.position), dvec2(crowd.walkers[i].middle));
+      ASSERT_LE(away, reachOf(crowd, persons, i)) << i << " at " << 2.3 * k;
+      most = std::max(most, away / std::max(reachOf(crowd, persons, i), 1e-9));
+    }
+  }
+  EXPECT_GT(most, 0.5) << "and what is said is not idle";
+}
+
 TEST(Crowd, TwoWhoMeetKeepRight) {
   city::People people;
   people.characters.emplace_back();
