@@ -264,7 +264,7 @@ TEST(Meshes, ThoseWithoutTrianglesSayWhy) {
   EXPECT_FALSE(readMesh(folder.write("empty.obj", "v 0 0 0\n"), {}, d));
   EXPECT_FALSE(readMesh(folder.write("broken.gltf", "{\"asset\":"), {}, d));
   EXPECT_EQ(d.messages.size(), 2u) << messagesOf(d);
-  EXPECT_THAT(messagesOf(d), HasSubstr("broken.gltf: the mesh cannot be read"));
+  EXPECT_THAT(messagesOf(d), HasSubstr("broken.gltf: byte 10: the mesh cannot be read"));
 }
 
 TEST(Meshes, AMonumentStandsOnTheGroundWhereTheSceneSays) {
