@@ -112,7 +112,12 @@ void addFlatRoof(BuildingBuilder& builder, std::span<const Ring> rings, double z
     for (size_t i = 0; i < ring.size(); ++i) inner.push_back(movedCorner(ring, inward, i));
     const auto turned = [&](size_t i) {
       const size_t k = (i + 1) % ring.size();
-      return !(glm::dot(ring[k] - ring[i], inner[k] - inner[i]) > 0);
+      // Neither of the two triangles of its top may turn over, either.
+      const auto half = [&](dvec2 a, dvec2 b, dvec2 c) {
+        return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+      };
+      return !(glm::dot(ring[k] - ring[i], inner[k] - inner[i]) > 0 && half(ring[i], ring[k], inner[k]) > 1e-9 &&
+               half(ring[i], inner[k], inner[i]) > 1e-9);
     };
     bool narrow = false;  // no room for a wall on both sides
     for (size_t i = 0; i < ring.size(); ++i) narrow = narrow || turned(i);
