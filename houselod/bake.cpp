@@ -181,27 +181,38 @@ void bakePicture(const city::BuildingGeometry& type, const TexturePlan& plan, co
     }
 }
 
-std::vector<std::vector<uint8_t>> pageLevels(std::vector<uint8_t> page, int pageSize) {
+std::vector<std::vector<uint8_t>> pageLevels(std::vector<uint8_t> page, int pageSize, int size) {
   std::array<float, 256> square{};
   for (size_t i = 0; i < square.size(); ++i) square[i] = static_cast<float>(i * i);
+  const auto halved = [&](const std::vector<uint8_t>& from, int half) {
+    const auto row = static_cast<size_t>(half) * 2;
+    std::vector<uint8_t> to(4 * static_cast<size_t>(half) * static_cast<size_t>(half));
+    for (size_t y = 0; y < static_cast<size_t>(half); ++y)
+      for (size_t x = 0; x < static_cast<size_t>(half); ++x) {
+        const uint8_t* p = &from[4 * (2 * y * row + 2 * x)];
+        uint8_t* out = &to[4 * (y * static_cast<size_t>(half) + x)];
+        const uint8_t *right = p + 4, *up = p + 4 * row, *across = up + 4;
+        for (size_t c = 0; c < 3; ++c)
+          out[c] = static_cast<uint8_t>(
+              std::sqrt(0.25f * (square[p[c]] + square[right[c]] + square[up[c]] + square[across[c]])) + 0.5f);
+        out[3] = static_cast<uint8_t>((p[3] + right[3] + up[3] + across[3] + 2) / 4);
+      }
+    return to;
+  };
+  for (; pageSize > size; pageSize /= 2) page = halved(page, pageSize / 2);
+  if (pageSize < size) {
+    const int times = size / pageSize;
+    std::vector<uint8_t> large(4 * static_cast<size_t>(size) * static_cast<size_t>(size));
+    for (int y = 0; y < size; ++y)
+      for (int x = 0; x < size; ++x)
+        std::copy_n(&page[4 * (static_cast<size_t>(y / times) * static_cast<size_t>(pageSize) +
+                               static_cast<size_t>(x / times))],
+                    4, &large[4 * (static_cast<size_t>(y) * static_cast<size_t>(size) + static_cast<size_t>(x))]);
+    page = std::move(large);
+  }
   std::vector<std::vector<uint8_t>> levels;
   levels.push_back(std::move(page));
-  for (int size = pageSize / 2; size > 0 && levels.size() < kPictureLevels; size /= 2) {
-    const std::vector<uint8_t>& from = levels.back();
-    const auto row = static_cast<size_t>(size) * 2;
-    std::vector<uint8_t> to(4 * static_cast<size_t>(size) * static_cast<size_t>(size));
-    for (size_t y = 0; y < static_cast<size_t>(size); ++y)
-      for (size_t x = 0; x < static_cast<size_t>(size); ++x) {
-        const uint8_t* p = &from[4 * (2 * y * row + 2 * x)];
-        uint8_t* out = &to[4 * (y * static_cast<size_t>(size) + x)];
-        for (size_t c = 0; c < 3; ++c)
-          out[c] = static_cast<uint8_t>(std::sqrt(0.25f * (square[p[c]] + square[p[4 + c]] + square[p[4 * row + c]] +
-                                                           square[p[4 * row + 4 + c]])) +
-                                        0.5f);
-        out[3] = static_cast<uint8_t>((p[3] + p[7] + p[4 * row + 3] + p[4 * row + 7] + 2) / 4);
-      }
-    levels.push_back(std::move(to));
-  }
+  for (int half = size / 2; half > 0; half /= 2) levels.push_back(halved(levels.back(), half));
   return levels;
 }
 

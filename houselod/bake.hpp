@@ -31,7 +31,8 @@ struct BakedFrom {
 void bakePicture(const city::BuildingGeometry& type, const TexturePlan& plan, const PlanePicture& picture,
                  std::span<const BakedFrom> materials, std::span<uint8_t> page);
 
-/// Mip levels of a page, kPictureLevels of them, the page itself first; light is averaged, not its root.
-std::vector<std::vector<uint8_t>> pageLevels(std::vector<uint8_t> page, int pageSize);
+/// Mip levels of a page for an array of `size`² texels, from that down to 1 × 1; light is averaged, not its root. A
+/// larger array repeats texels. Both sizes are powers of two.
+std::vector<std::vector<uint8_t>> pageLevels(std::vector<uint8_t> page, int pageSize, int size);
 
 }  // namespace vicus::houselod

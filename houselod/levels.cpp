@@ -94,7 +94,7 @@ class Outline {
 constexpr city::Knob kKnobs[] = {
     {"house_lod", 1, 0, 1, "on/off", "Draws far walls flat, without what sticks out of them and goes into them.",
      "off: every house at full detail", "on is the most"},
-    {"house_lod.scalar", 64, 0, 1e9, "m for each m",
+    {"house_lod.scalar", 256, 0, 1e9, "m for each m",
      "A thing on a wall begins to slide into it at so many times its depth and is gone at four times that.",
      "walls grow windows and doors as one comes near", "all houses at full detail from everywhere"},
     {"house_lod.slide", 1, 0, 1, "on/off", "Things on walls slide into them before they are left out.",
@@ -103,12 +103,23 @@ constexpr city::Knob kKnobs[] = {
      "off: slides things and draws them all the same, for comparison", "on is the most"},
 };
 
+constexpr city::Knob kPictureKnobs[] = {
+    {"house_lod.picture_mb", 32, 0, 2048, "MB", "Memory for pictures of walls with all that is on them.",
+     "houses stay at full detail until half a metre is a pixel",
+     "a longer start; pictures are at most 40 texels a metre"},
+};
+
 }  // namespace
+
+std::span<const city::Knob> pictureKnobs() {
+  return kPictureKnobs;
+}
 
 TypeLevels levelsOf(const city::BuildingGeometry& type) {
   TypeLevels levels;
-  std::vector<int> steps(type.externalGeometry.size(), 0);
+  std::vector<int> steps(type.externalGeometry.size(), -1);  // those of walls that stay whole have none
   for (const city::Plane& plane : type.planes) {
+    if (staysWhole(plane)) continue;
     levels.flat |= plane.flat != plane.cut || plane.externalGeometry.count > 0 || plane.externalOpenings.count > 0;
     for (uint32_t i = plane.externalOpenings.first; i < plane.externalOpenings.end(); ++i)
       levels.openings = std::max(levels.openings, type.externalOpenings[i].depth);
@@ -120,14 +131,15 @@ TypeLevels levelsOf(const city::BuildingGeometry& type) {
     }
   }
   bool used[kMostSteps] = {};
-  for (const int step : steps) used[step] = true;
+  for (const int step : steps)
+    if (step >= 0) used[step] = true;
   uint8_t number[kMostSteps] = {};
   for (size_t k = 0; k < kMostSteps; ++k) {
     if (!used[k]) continue;
     number[k] = static_cast<uint8_t>(levels.reaches.size());
     levels.reaches.push_back(reachOfStep(static_cast<int>(k)));
   }
-  for (const int step : steps) levels.stepOf.push_back(number[step]);
+  for (const int step : steps) levels.stepOf.push_back(step >= 0 ? number[step] : 0);
   if (levels.flat) levels.detail = kDetailWithoutPicture;
   return levels;
 }

@@ -33,6 +33,11 @@ constexpr size_t kMostSteps = 64;
 /// metres that is hardly seen: half a window.
 constexpr float kDetailWithoutPicture = 0.5f;
 
+/// A wall without a surface of its own behind its openings is drawn with all that is on it at every level.
+inline bool staysWhole(const city::Plane& plane) {
+  return plane.flat == plane.cut && plane.externalOpenings.count > 0;
+}
+
 /// An item reaches as far as its depth, or as far as it overhangs the outline of its wall where that is more (a gable's
 /// steps stand before the sky, and only their own size says from where they are not missed).
 TypeLevels levelsOf(const city::BuildingGeometry& type);
@@ -49,5 +54,7 @@ Level levelAt(const TypeLevels& type, const LevelView& view, double distance);
 
 /// house_lod, house_lod.scalar, …
 std::span<const city::Knob> houseLodKnobs();
+/// house_lod.picture_mb: shapes what is drawn from, not the plan alone.
+std::span<const city::Knob> pictureKnobs();
 
 }  // namespace vicus::houselod

@@ -1,5 +1,7 @@
 #include "houselod/texture_plan.hpp"
 
+#include "houselod/levels.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -77,7 +79,7 @@ TexturePlan planPictures(std::span<const city::BuildingGeometry> types, uint32_t
   for (uint32_t t = 0; t < types.size(); ++t)
     for (uint32_t p = 0; p < types[t].planes.size(); ++p) {
       const city::Plane& plane = types[t].planes[p];
-      if (!hasItems(plane)) continue;
+      if (!hasItems(plane) || staysWhole(plane)) continue;
       const vec2 size = planeFrame(types[t], plane).size;
       if (!(size.x > 0 && size.y > 0) || !std::isfinite(size.x * size.y)) continue;
       sized.push_back({static_cast<uint32_t>(plan.pictures.size()), size});
@@ -100,6 +102,19 @@ TexturePlan planPictures(std::span<const city::BuildingGeometry> types, uint32_t
     const PlanePicture& p = plan.pictures[s.picture];
     const vec2 texel = s.metres / vec2(p.size);
     plan.detail[p.type] = std::max({plan.detail[p.type], texel.x, texel.y});
+  }
+  return plan;
+}
+
+TexturePlan picturesWithin(std::span<const city::BuildingGeometry> types, double megabytes) {
+  constexpr double kPageBytes = 4.0 / 3 * 4 * kPageSize * kPageSize;
+  constexpr double kMostPages = 1024;
+  const double pages = std::clamp(std::floor(megabytes * 1e6 / kPageBytes), 0.0, kMostPages);
+  TexturePlan plan = planPictures(types, static_cast<uint32_t>(pages), kPageSize);
+  if (plan.pages > 0 && plan.texelsPerMetre < kCoarsestPicture) {
+    plan.pictures.clear();
+    plan.pages = 0;
+    std::fill(plan.detail.begin(), plan.detail.end(), 0.0f);
   }
   return plan;
 }

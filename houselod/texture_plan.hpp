@@ -39,15 +39,21 @@ struct TexturePlan {
   double texelsPerMetre = 0;
 };
 
-/// Pictures keep so far from each other, and begin at multiples of it, that kPictureLevels mip levels do not mix them.
+/// Pictures begin at multiples of so many texels, so that the first four mip levels do not mix them.
 constexpr int kPictureGrid = 8;
-constexpr int kPictureLevels = 4;
 /// A wall's picture need not be finer than its materials are: texels a metre.
 constexpr double kFinestPicture = 40;
+
+/// Coarser ones are not worth having: half a metre a texel shows no window.
+constexpr double kCoarsestPicture = 4;
+constexpr int kPageSize = 512;
 
 /// Plans pictures for all walls with anything on them, as fine as `pages` pages of `pageSize`² texels (a power of two)
 /// have room for, all equally; walls wider than a page get coarser ones. No pages: no pictures.
 TexturePlan planPictures(std::span<const city::BuildingGeometry> types, uint32_t pages, int pageSize);
+/// The same for a budget in megabytes, mip levels counted. None where they would be coarser than kCoarsestPicture: a
+/// town in which each house is different has no room for pictures of all.
+TexturePlan picturesWithin(std::span<const city::BuildingGeometry> types, double megabytes);
 
 /// Texture coordinates on its page of a point of the wall.
 glm::vec2 onPage(const TexturePlan& plan, const PlanePicture& picture, const PlaneFrame& frame, glm::vec3 point);

@@ -2,6 +2,7 @@
 #include "plan/house_levels.hpp"
 
 #include "houselod/slide.hpp"
+#include "houselod/texture_plan.hpp"
 
 namespace vicus::plan {
 namespace {
@@ -21,8 +22,11 @@ HouseLodScene lookAtHouses(const city::City& city, const city::Knobs& knobs) {
   scene.slide = knobs.on("house_lod.slide");
   scene.drop = knobs.on("house_lod.drop");
   scene.types.reserve(city.buildingTypes.size());
-  for (const city::BuildingGeometry& type : city.buildingTypes) {
-    scene.types.push_back(houselod::levelsOf(type));
+  const double megabytes = knobs.has("house_lod.picture_mb") ? knobs["house_lod.picture_mb"] : 0;
+  const houselod::TexturePlan pictures = houselod::picturesWithin(city.buildingTypes, megabytes);
+  for (size_t t = 0; t < city.buildingTypes.size(); ++t) {
+    scene.types.push_back(houselod::levelsOf(city.buildingTypes[t]));
+    if (pictures.detail[t] > 0) scene.types.back().detail = pictures.detail[t];
     scene.flatTypes += scene.types.back().flat ? 1 : 0;
   }
   scene.on = scene.flatTypes > 0;

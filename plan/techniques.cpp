@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kColumns[] = {64, 128, 256, 512, 1024, 8192};
 constexpr double kPixelErrors[] = {0.5, 1, 2, 4, 8, 16};
-constexpr double kHouseScalars[] = {16, 32, 64, 128, 256, 512};
+constexpr double kHouseScalars[] = {16, 64, 128, 256, 512, 1024};
 constexpr double kPoseRates[] = {4, 8, 15, 30, 60, 120};
 constexpr double kMultisamples[] = {1, 2, 4, 8};
 

@@ -7,8 +7,37 @@
 namespace vicus::scenegraph {
 namespace {
 
+/// A type's vertices and indices with its walls' pictures put on its flat surfaces.
+struct Pictured {
+  std::vector<city::Vertex> vertices;
+  std::vector<uint32_t> indices;
+  std::vector<city::Range> flats;  ///< for each plane
+};
+
+Pictured withPictures(const city::BuildingGeometry& g, const houselod::TexturePlan& plan,
+                      std::span<const houselod::PlanePicture> pictures, city::MaterialId firstPage) {
+  Pictured out{g.vertices, g.indices, {}};
+  for (const city::Plane& plane : g.planes) out.flats.push_back(plane.flat);
+  for (const houselod::PlanePicture& picture : pictures) {
+    const city::Plane& plane = g.planes[picture.plane];
+    const houselod::PlaneFrame frame = houselod::planeFrame(g, plane);
+    city::Range& flat = out.flats[picture.plane];
+    flat = {static_cast<uint32_t>(out.indices.size()), plane.flat.count};
+    for (uint32_t i = plane.flat.first; i < plane.flat.end(); ++i) {
+      city::Vertex v = g.vertices[g.indices[i]];
+      v.uv = houselod::onPage(plan, picture, frame, v.position);
+      v.item = v.material;
+      v.material = static_cast<city::MaterialId>(firstPage + picture.page);
+      out.indices.push_back(static_cast<uint32_t>(out.vertices.size()));
+      out.vertices.push_back(v);
+    }
+  }
+  return out;
+}
+
 /// The pieces of a building type; in scene order each plane is a run.
-std::vector<Piece> piecesOf(const city::BuildingGeometry& g, const houselod::TypeLevels& levels, Ordering ordering) {
+std::vector<Piece> piecesOf(const city::BuildingGeometry& g, std::span<const city::Range> flats,
+                            const houselod::TypeLevels& levels, Ordering ordering) {
   std::vector<Piece> pieces;
   const auto add = [&](const city::Range& indices, uint32_t run, uint32_t order) {
     if (indices.count > 0) pieces.push_back({indices, run, order});
@@ -20,13 +49,17 @@ std::vector<Piece> piecesOf(const city::BuildingGeometry& g, const houselod::Typ
       for (uint32_t i = plane.externalOpenings.first; i < plane.externalOpenings.end(); ++i)
         add(g.externalOpenings[i].indices, run, order);
     };
+    const bool whole = houselod::staysWhole(plane);
+    const auto addItems = [&](uint32_t order) {
+      for (uint32_t i = plane.externalGeometry.first; i < plane.externalGeometry.end(); ++i)
+        add(g.externalGeometry[i].indices, run, whole ? order : 1 + levels.stepOf[i]);
+    };
     add(plane.cut, run, 0);
     addOpenings(0);
-    for (uint32_t i = plane.externalGeometry.first; i < plane.externalGeometry.end(); ++i)
-      add(g.externalGeometry[i].indices, run, 1 + levels.stepOf[i]);
+    addItems(0);
     if (!levels.flat) continue;
-    add(plane.flat, run, kFlatSurface);
-    if (plane.flat == plane.cut) addOpenings(kFlatSurface);  // else its holes would stay open
+    add(flats[p], run, kFlatSurface);
+    if (whole) addOpenings(kFlatSurface), addItems(kFlatSurface);
   }
   return pieces;
 }
@@ -102,19 +135,33 @@ void addGeometry(Arena& arena, std::span<const city::Vertex> vertices, std::span
   arena.geometries.push_back(geometry);
 }
 
-Arena buildingArena(const city::City& city, std::span<const uint8_t> cutOut, Ordering ordering) {
+Arena buildingArena(const city::City& city, std::span<const uint8_t> cutOut, Ordering ordering,
+                    const houselod::TexturePlan& pictures, city::MaterialId firstPage) {
   Arena arena;
   arena.geometries.reserve(city.buildingTypes.size());
   std::vector<city::MaterialId> materials;
-  for (const city::BuildingGeometry& g : city.buildingTypes) {
+  size_t nextPicture = 0;
+  for (uint32_t t = 0; t < city.buildingTypes.size(); ++t) {
+    const city::BuildingGeometry& g = city.buildingTypes[t];
+    const size_t firstPicture = nextPicture;
+    while (nextPicture < pictures.pictures.size() && pictures.pictures[nextPicture].type == t) ++nextPicture;
     const houselod::TypeLevels levels = houselod::levelsOf(g);
     materials.clear();
     if (ordering == Ordering::Scene)
       for (const city::Plane& plane : g.planes) materials.push_back(plane.baseTexture);
     else
       materials.push_back(g.planes.empty() ? city::MaterialId{0} : g.planes[0].baseTexture);
-    addGeometry(arena, g.vertices, g.indices, piecesOf(g, levels, ordering), materials,
-                static_cast<uint32_t>(levels.reaches.size()), cutOut);
+    const auto steps = static_cast<uint32_t>(levels.reaches.size());
+    if (nextPicture > firstPicture) {
+      const Pictured pictured = withPictures(
+          g, pictures, std::span(pictures.pictures).subspan(firstPicture, nextPicture - firstPicture), firstPage);
+      addGeometry(arena, pictured.vertices, pictured.indices, piecesOf(g, pictured.flats, levels, ordering), materials,
+                  steps, cutOut);
+    } else {
+      std::vector<city::Range> flats;
+      for (const city::Plane& plane : g.planes) flats.push_back(plane.flat);
+      addGeometry(arena, g.vertices, g.indices, piecesOf(g, flats, levels, ordering), materials, steps, cutOut);
+    }
   }
   return arena;
 }

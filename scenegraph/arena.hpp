@@ -8,6 +8,7 @@
 #include "city/city.hpp"
 #include "city/vertex.hpp"
 #include "houselod/levels.hpp"
+#include "houselod/texture_plan.hpp"
 
 namespace vicus::scenegraph {
 
@@ -92,8 +93,10 @@ void addGeometry(Arena& arena, std::span<const city::Vertex> vertices, std::span
                  std::vector<Piece> pieces, std::span<const city::MaterialId> runs, uint32_t steps,
                  std::span<const uint8_t> cutOut, uint64_t chunkBytes = kArenaChunkBytes);
 
-/// All building types in all their levels.
-Arena buildingArena(const city::City& city, std::span<const uint8_t> cutOut, Ordering ordering);
+/// All building types in all their levels. Flat walls show their pictures on the pages, which are the materials from
+/// `firstPage` on; their vertices' item is the wall's own material then, whose tint a seed shifts.
+Arena buildingArena(const city::City& city, std::span<const uint8_t> cutOut, Ordering ordering,
+                    const houselod::TexturePlan& pictures = {}, city::MaterialId firstPage = 0);
 /// All tree types, a run each.
 Arena treeArena(const city::City& city, std::span<const uint8_t> cutOut);
 

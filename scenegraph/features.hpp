@@ -25,6 +25,7 @@ struct SceneParts {
   std::shared_ptr<TileTable> tiles;
   std::shared_ptr<const MaterialTextures> textures;
   Ordering ordering = Ordering::ByState;
+  houselod::TexturePlan pictures;          ///< of houses' walls; none where there is no room for them
   osg::ref_ptr<osg::Texture2D> groundMap;  ///< null where the scene has no terrain
 };
 

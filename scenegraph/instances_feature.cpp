@@ -42,6 +42,7 @@ class Instances : public Feature {
 
     std::vector<std::string> defines = parts.textures->defines;
     if (!isTrees_) defines.emplace_back("SLIDES");
+    if (!isTrees_ && parts.textures->pages > 0) defines.emplace_back("PICTURES");
     std::vector<std::string> withHoles = defines;
     withHoles.emplace_back("CUT_OUT");
     std::vector<std::pair<ArenaPart, SurfaceStates>> looks;
@@ -157,7 +158,9 @@ class Instances : public Feature {
 
 std::unique_ptr<Feature> makeBuildings(const city::City& city, const SceneParts& parts) {
   return std::make_unique<Instances>(city, parts,
-                                     InstanceContent{&city.buildings, buildingArena(city, parts.textures->cutOut, parts.ordering),
+                                     InstanceContent{&city.buildings,
+                                                     buildingArena(city, parts.textures->cutOut, parts.ordering,
+                                                                   parts.pictures, parts.textures->firstPage),
                                                      city.itemOfBuilding(0), true, "buildings"});
 }
 

@@ -69,7 +69,7 @@ osg::ref_ptr<osg::Texture2DArray> textureArray(std::string name, int size, bool 
 
 MaterialTextures makeMaterialTextures(std::span<const city::Material> materials, uint64_t budgetBytes,
                                       double anisotropy, city::Diagnostics& diagnostics,
-                                      const assets::Progress& progress) {
+                                      const assets::Progress& progress, const PageRequest& request) {
   city::Material grey;
   grey.name = "grey", grey.source = "builtin:plaster";
   if (materials.empty()) materials = {&grey, 1};
@@ -97,6 +97,7 @@ MaterialTextures makeMaterialTextures(std::span<const city::Material> materials,
     demands[i] = {std::max({images[i].width, images[i].height, 1}), firstUse[i]->repeat};
     holes[i] = hasHoles(images[i]);
   }
+  demands.resize(count + request.pages, {houselod::kPageSize, true});
   const TexturePlan plan = planTextures(demands, budgetBytes);
   if (plan.halvings > 0)
     diagnostics.warn("textures", "",
@@ -117,6 +118,33 @@ MaterialTextures makeMaterialTextures(std::span<const city::Material> materials,
   {
     auto other = std::async(std::launch::async, makeLevels);
     makeLevels();
+    other.get();
+  }
+  // Pages are baked from the levels just made.
+  std::vector<houselod::BakedFrom> bakedFrom;
+  for (size_t i = 0; request.pages > 0 && i < materials.size(); ++i) {
+    const city::Material& m = materials[i];
+    const TexturePlace& place = plan.places[pictures[i]];
+    houselod::BakedFrom& from = bakedFrom.emplace_back();
+    from.size = plan.classes[place.textureClass].size;
+    for (const std::vector<uint8_t>& level : layers[place.textureClass][place.layer]) from.levels.emplace_back(level);
+    from.repeat = m.repeat, from.tint = m.tint, from.specular = m.specular;
+    from.metresPerRepeat = {m.metresPerRepeat.x > 0 ? m.metresPerRepeat.x : 1,
+                            m.metresPerRepeat.y > 0 ? m.metresPerRepeat.y : 1};
+  }
+  if (request.pages > 0) {
+    std::atomic<uint32_t> nextPage = 0;
+    const auto bakePages = [&] {
+      for (uint32_t page = nextPage++; page < request.pages; page = nextPage++) {
+        std::vector<uint8_t> texels(4 * static_cast<size_t>(houselod::kPageSize) * houselod::kPageSize, 0);
+        request.bake(page, bakedFrom, texels);
+        const TexturePlace& place = plan.places[count + page];
+        layers[place.textureClass][place.layer] =
+            houselod::pageLevels(std::move(texels), houselod::kPageSize, plan.classes[place.textureClass].size);
+      }
+    };
+    auto other = std::async(std::launch::async, bakePages);
+    bakePages();
     other.get();
   }
   if (progress) progress("textures", 1);
@@ -140,12 +168,22 @@ MaterialTextures makeMaterialTextures(std::span<const city::Material> materials,
     out.cutOut.push_back(holes[pictures[i]]);
     out.classOf.push_back(place.textureClass);
   }
+  out.firstPage = static_cast<city::MaterialId>(materials.size());
+  out.pages = request.pages;
+  for (uint32_t page = 0; page < request.pages; ++page) {
+    const TexturePlace& place = plan.places[count + page];
+    rows->push_back({1, 1, static_cast<float>(place.layer), static_cast<float>(place.textureClass)});
+    rows->push_back({1, 1, 1, 0});
+    rows->push_back({0, 1, 0, 0});
+    out.cutOut.push_back(0);
+    out.classOf.push_back(place.textureClass);
+  }
   // A uniform block where the table fits one: software GL reads those much faster than storage blocks.
   constexpr size_t kLargestUniformBlock = 64 << 10;
   out.defines = {"TEXTURE_CLASSES " + std::to_string(out.arrays.size())};
   const auto bytes = static_cast<GLsizeiptr>(rows->getTotalDataSize());
   if (rows->getTotalDataSize() <= kLargestUniformBlock) {
-    out.defines.push_back("MATERIALS " + std::to_string(materials.size()));
+    out.defines.push_back("MATERIALS " + std::to_string(materials.size() + request.pages));
     rows->setBufferObject(new osg::UniformBufferObject);
     out.table = new osg::UniformBufferBinding(kMaterialBinding, rows.get(), 0, bytes);
   } else {

@@ -3,6 +3,7 @@
 
 #include "scenegraph/gl.hpp"
 
+#include <functional>
 #include <osg/BufferIndexBinding>
 #include <osg/StateSet>
 #include <osg/Texture2DArray>
@@ -14,6 +15,7 @@
 #include "assets/load_city.hpp"
 #include "city/city.hpp"
 #include "city/diagnostics.hpp"
+#include "houselod/bake.hpp"
 #include "scenegraph/texture_classes.hpp"
 
 namespace vicus::scenegraph {
@@ -24,6 +26,8 @@ struct MaterialTextures {
   std::vector<std::string> defines;                       ///< that shaders/materials.glsl and surface.frag need
   std::vector<uint8_t> cutOut;                            ///< for each material: its picture has holes
   std::vector<uint32_t> classOf;                          ///< for each material
+  city::MaterialId firstPage = 0;                         ///< the pages' materials follow the city's
+  uint32_t pages = 0;
   uint64_t bytes = 0;
 };
 
@@ -48,9 +52,17 @@ using LayerLevels = std::vector<std::vector<uint8_t>>;
 osg::ref_ptr<osg::Texture2DArray> textureArray(std::string name, int size, bool repeat, std::vector<LayerLevels> layers,
                                                double anisotropy);
 
-/// Makes (or reads) the pictures of all materials, two at a time. A city without materials gets one of grey.
+/// Pictures of walls that become layers and materials like any other.
+struct PageRequest {
+  uint32_t pages = 0;  ///< of houselod::kPageSize²
+  /// Fills a page from the materials' pictures; called from several threads.
+  std::function<void(uint32_t page, std::span<const houselod::BakedFrom> materials, std::span<uint8_t> texels)> bake;
+};
+
+/// Makes (or reads) the pictures of all materials, two at a time, then the pages. A city without materials gets one of
+/// grey.
 MaterialTextures makeMaterialTextures(std::span<const city::Material> materials, uint64_t budgetBytes,
                                       double anisotropy, city::Diagnostics& diagnostics,
-                                      const assets::Progress& progress);
+                                      const assets::Progress& progress, const PageRequest& request = {});
 
 }  // namespace vicus::scenegraph

@@ -59,6 +59,18 @@ osg::ref_ptr<osg::Texture2D> groundMapTexture(const city::City& city, int larges
 
 constexpr int kGroundDetailSize = 512;  // texels
 
+/// The pages with the pictures of houses' walls; `plan` must outlive what it returns.
+PageRequest pagesOf(const city::City& city, const houselod::TexturePlan& plan) {
+  PageRequest request;
+  request.pages = plan.pages;
+  request.bake = [&](uint32_t page, std::span<const houselod::BakedFrom> materials, std::span<uint8_t> texels) {
+    for (const houselod::PlanePicture& picture : plan.pictures)
+      if (picture.page == page)
+        houselod::bakePicture(city.buildingTypes[picture.type], plan, picture, materials, texels);
+  };
+  return request;
+}
+
 /// Uniforms of the shared shader files, set once (light) or each frame (view).
 struct FrameUniforms {
   osg::ref_ptr<osg::Uniform> clipFromEyeRelative = new osg::Uniform("clipFromEyeRelative", osg::Matrixf());
@@ -68,7 +80,8 @@ struct FrameUniforms {
   osg::ref_ptr<osg::Uniform> slidePerMetre = new osg::Uniform("slidePerMetre", 0.0f);
 
   void addTo(osg::StateSet& states) const {
-    for (const auto& u : {clipFromEyeRelative, eyeRelativeFromClip, worldFromEye, time, slidePerMetre}) states.addUniform(u);
+    for (const auto& u : {clipFromEyeRelative, eyeRelativeFromClip, worldFromEye, time, slidePerMetre})
+      states.addUniform(u);
   }
 };
 
@@ -137,7 +150,12 @@ DrawCounts& DrawCounts::operator+=(const DrawCounts& more) {
 }
 
 std::span<const city::Knob> sceneKnobs() {
-  return kKnobs;
+  static const std::vector<city::Knob> all = [] {
+    std::vector<city::Knob> knobs(std::begin(kKnobs), std::end(kKnobs));
+    knobs.insert(knobs.end(), houselod::pictureKnobs().begin(), houselod::pictureKnobs().end());
+    return knobs;
+  }();
+  return all;
 }
 
 /// Grass, earth and stones as factors of the ground map's colour: each texel over its surroundings' mean, halved. What
@@ -181,9 +199,11 @@ Scene::Scene(const city::City& city, const city::Knobs& knobs, city::Diagnostics
   s.tiles = std::make_shared<TileTable>(tileBases(city));
 
   const double anisotropy = knobs["textures.anisotropy"];
-  const auto textures = std::make_shared<const MaterialTextures>(makeMaterialTextures(
-      city.materials, static_cast<uint64_t>(knobs["textures.budget_mb"]) << 20, anisotropy, diagnostics, progress));
   SceneParts parts;
+  parts.pictures = houselod::picturesWithin(city.buildingTypes, knobs["house_lod.picture_mb"]);
+  const auto textures = std::make_shared<const MaterialTextures>(
+      makeMaterialTextures(city.materials, static_cast<uint64_t>(knobs["textures.budget_mb"]) << 20, anisotropy,
+                           diagnostics, progress, pagesOf(city, parts.pictures)));
   parts.tiles = s.tiles;
   parts.textures = textures;
   parts.ordering = knobs.on("state_ordering") ? Ordering::ByState : Ordering::Scene;

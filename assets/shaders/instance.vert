@@ -27,6 +27,9 @@ flat out vec2 place;
 out vec3 scale;
 out vec3 add;
 out float heightAboveGround;
+#ifdef PICTURES
+out vec4 gloss;
+#endif
 #endif
 
 void main() {
@@ -55,8 +58,18 @@ void main() {
   // Leaves are seen from both sides and let light through: light them as the crown's surface, not as their card.
   normal = normalize(normal + vec3(0.0, 0.0, 0.6));
 #endif
+#ifdef PICTURES
+  // A wall's picture holds colours and gloss; a seed shifts it as the wall's own material, whose number it has as item.
+  bool pictured = material.gloss.y > 0.0;
+  vec3 tint = tintOf(pictured ? vec4(1.0, 1.0, 1.0, materials[vertexMaterial.y].tint.w) : material.tint, seedAndItem.x,
+                     pictured ? vertexMaterial.y : vertexMaterial.x);
+  Seen s = seen(fromEye, normal, tint, material.gloss.x);
+  Seen mirror = seen(fromEye, normal, tint, 1.0);
+  gloss = pictured ? vec4(mirror.add - s.add, 1.0 - mirror.scale.g / max(s.scale.g, 1e-6)) : vec4(0.0);
+#else
   Seen s = seen(fromEye, normal, tintOf(material.tint, seedAndItem.x, vertexMaterial.x),
                 material.gloss.x);
+#endif
   scale = s.scale;
   add = s.add;
   heightAboveGround = vertexPosition.z + 4.0 * abs(n.z);

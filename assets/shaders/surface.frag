@@ -50,6 +50,9 @@ void main() {
 in vec3 scale;
 in vec3 add;
 in float heightAboveGround;
+#ifdef PICTURES
+in vec4 gloss;  // what full gloss adds, and the share of the light that it takes; the picture's alpha is its gloss
+#endif
 layout(location = 0) out vec4 shown;
 
 void main() {
@@ -62,6 +65,10 @@ void main() {
 #endif
   // Walls are darker near the ground, where the ground and what stands on it hide the sky.
   float open = 1.0 - 0.35 * clamp(1.0 - 0.4 * heightAboveGround, 0.0, 1.0);
+#ifdef PICTURES
+  shown = vec4(displayed(t.rgb * t.rgb * (scale * (open * (1.0 - gloss.a * t.a))) + add + gloss.rgb * t.a), cover);
+#else
   shown = vec4(displayed(t.rgb * t.rgb * (scale * open) + add), cover);
+#endif
 }
 #endif

@@ -121,10 +121,42 @@ TEST(Arena, LeavesNoHoleOpenWhereAWallHasNoFlatSurface) {
   builder.addQuad({0, 0, 0}, {3, 0, 0}, {3, 0, 3}, {0, 0, 3}, 0);
   builder.beginExternalOpening(0.3f);
   builder.addQuad({3, 0.3f, 0}, {4, 0.3f, 0}, {4, 0.3f, 3}, {3, 0.3f, 3}, 0);
+  builder.beginPlane(city::PlaneKind::Wall, 0, {0, 1, 0});
+  builder.addQuad({4, 4, 0}, {0, 4, 0}, {0, 4, 3}, {4, 4, 3}, 0);
+  builder.beginExternalGeometry(0.05f);
+  builder.addQuad({2, 4.05f, 1}, {1, 4.05f, 1}, {1, 4.05f, 2}, {2, 4.05f, 2}, 0);
   city::City city;
   city.buildingTypes = {builder.finish()};
   const Arena arena = buildingArena(city, {}, Ordering::ByState);
-  EXPECT_EQ(drawnAt(arena, arena.geometries[0], 1), drawnAt(arena, arena.geometries[0], houselod::kFullDetail));
+  const ArenaGeometry& g = arena.geometries[0];
+  EXPECT_EQ(drawnAt(arena, g, houselod::kFullDetail).size(), 8u);
+  EXPECT_EQ(drawnAt(arena, g, 1).size(), 8u);
+  EXPECT_EQ(drawnAt(arena, g, 2).size(), 6u) << "the sill alone is left out";
+}
+
+/// Flat walls show their pictures; full detail knows nothing of them.
+TEST(Arena, PutsPicturesOnFlatWallsAlone) {
+  city::City city;
+  city.buildingTypes = {gabledHouse("a", 7, 5, 2.6f, 5), decoratedHouse()};
+  const houselod::TexturePlan plan = houselod::planPictures(city.buildingTypes, 1, 128);
+  constexpr city::MaterialId kFirstPage = 100;
+  const Arena arena = buildingArena(city, {}, Ordering::ByState, plan, kFirstPage);
+  const ArenaGeometry& g = arena.geometries[1];
+  const ArenaChunk& chunk = arena.chunks[g.chunk];
+  const auto pictured = [&](houselod::Level level) {
+    size_t count = 0;
+    const city::Range range = indicesAt(arena, arena.runs[g.runs.first], ArenaPart::Opaque, level);
+    for (uint32_t i = range.first; i < range.end(); ++i) {
+      const city::Vertex& v = chunk.vertices[static_cast<size_t>(g.baseVertex) + chunk.indices[i]];
+      if (v.material < kFirstPage) continue;
+      ++count;
+      EXPECT_TRUE(glm::all(glm::greaterThan(v.uv, glm::vec2(0))) && glm::all(glm::lessThan(v.uv, glm::vec2(1))));
+      EXPECT_EQ(v.item, city.buildingTypes[1].planes[0].baseTexture) << "its seed's tint is the wall's own";
+    }
+    return count;
+  };
+  EXPECT_EQ(pictured(houselod::kFullDetail), 0u);
+  EXPECT_EQ(pictured(static_cast<houselod::Level>(g.steps + 1)), 6u) << "one of its two walls has things on it";
 }
 
 TEST(Arena, TrianglesWithHolesGoToTheirOwnPart) {
