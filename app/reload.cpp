@@ -29,8 +29,8 @@ Rebuilt rebuild(const std::vector<std::string>& files, const std::vector<std::st
   out.ownFiles = ownFilesOf(loaded);
   out.city = std::make_unique<city::City>(std::move(*loaded.city));
   out.planner = std::make_unique<plan::Planner>(*out.city, knobs);
-  out.scene =
-      std::make_unique<scenegraph::Scene>(*out.city, knobs, out.diagnostics, assets::Progress(), painting.get());
+  out.scene = std::make_unique<scenegraph::Scene>(*out.city, knobs, out.diagnostics, assets::Progress(), painting.get(),
+                                                  out.planner->houses());
   out.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   return out;
 }
@@ -74,7 +74,9 @@ void show(Rebuilt rebuilt, OpenScene& scene, viewer::Drawing& drawing) {
   if (!sameValues(rebuilt.knobs, drawing.knobs)) {
     rebuilt.planner = std::make_unique<plan::Planner>(*scene.city, drawing.knobs);
     rebuilt.scene.reset();
-    rebuilt.scene = std::make_unique<scenegraph::Scene>(*scene.city, drawing.knobs, rebuilt.diagnostics);
+    rebuilt.scene =
+        std::make_unique<scenegraph::Scene>(*scene.city, drawing.knobs, rebuilt.diagnostics, assets::Progress(),
+                                            scenegraph::GroundDetail(), rebuilt.planner->houses());
   }
   viewer::showCity(drawing, *scene.city, std::move(rebuilt.planner), std::move(rebuilt.scene));
   scene.diagnostics = std::move(rebuilt.diagnostics);

@@ -334,7 +334,7 @@ int walk(const WalkOptions& options, const Surroundings& surroundings) {
         console.progress(stage, fraction);
         showLoading();
       },
-      std::move(groundDetail));
+      std::move(groundDetail), drawing.planner->houses());
   while (visit && choosing.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) showLoading();
   const std::optional<city::Tour> tour = choosing.get();
   if (!tour) return fail(code);

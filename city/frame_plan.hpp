@@ -56,10 +56,17 @@ struct AvatarPlan {
   double pixelError = 0;
 };
 
+/// A house between two levels: both are drawn, and each pixel shows one of them.
+struct HouseFade {
+  uint32_t building = 0;
+  float share = 0;  ///< 0 to under 1: of its pixels that show its level; the others show full detail
+};
+
 /// How much of each house one frame draws (houselod/levels.hpp).
 struct HouseLodPlan {
-  double inverseScalar = 0;     ///< what things on walls slide by; 0: nothing slides
-  std::vector<uint8_t> levels;  ///< by building, those of drawn ones count; empty: all at full detail
+  double inverseScalar = 0;      ///< what things on walls slide by; 0: nothing slides
+  std::vector<uint8_t> levels;   ///< by building, those of drawn ones count; empty: all at full detail
+  std::vector<HouseFade> fades;  ///< drawn buildings, ascending
 };
 
 /// Time that one step of the plan took.
@@ -72,7 +79,7 @@ struct PlanCounts {
   uint64_t tiles = 0, tilesDrawn = 0;  ///< tiles with anything on them
   uint64_t instances = 0, instancesInFrustum = 0, instancesOccluded = 0,
            instancesDrawn = 0;  ///< buildings and monuments
-  uint64_t instancesFlat = 0;  ///< buildings drawn without anything on their walls
+  uint64_t instancesFlat = 0;   ///< buildings drawn without anything on their walls
   uint64_t treesDrawn = 0;
   uint64_t avatarsDrawn = 0, avatarPoses = 0;  ///< people drawn, and those of them whose pose was made anew
   uint64_t boxTests = 0;                       ///< boxes tested against the frustum

@@ -344,11 +344,12 @@ class Builder {
     const PaintLook& base = detail.fills.empty() ? plain : use_.looks[detail.fills[0].paint];
     builder_.beginPlane(PlaneKind::Wall, base.material, glm::vec3(frame.normal()));
     addWallDetail(builder_, frame, detail, use_.looks, style_.plainPaint);
-    addFar(frame, detail);
+    addFar(frame, detail, detail.fills.empty() ? style_.plainPaint : detail.fills[0].paint);
   }
 
-  /// The wall as one picture, for far away: the style's bay repeated where the wall has openings or pictures of them.
-  void addFar(const WallFrame& frame, const WallDetail& detail) {
+  /// The wall as one picture, for far away: the style's bay in the colour of paint `base`, repeated where the wall has
+  /// openings or pictures of them.
+  void addFar(const WallFrame& frame, const WallDetail& detail, uint32_t base) {
     if (detail.attachments.empty() || style_.farPaint == kNothing) return;
     const PaintLook& look = use_.looks[style_.farPaint];
     const auto whole = [](double length, double size) {
@@ -359,7 +360,7 @@ class Builder {
     builder_.beginFlat();
     builder_.addQuad(
         {frame.at(0, 0), frame.at(frame.width, 0), frame.at(frame.width, frame.height), frame.at(0, frame.height)},
-        {{0, 0}, {repeats.x, 0}, repeats, {0, repeats.y}}, look.material);
+        {{0, 0}, {repeats.x, 0}, repeats, {0, repeats.y}}, use_.farOf.empty() ? look.material : use_.farOf[base]);
     if (frame.below > 0)
       builder_.addQuad(frame.at(0, -frame.below), frame.at(frame.width, -frame.below), frame.at(frame.width, 0),
                        frame.at(0, 0), use_.looks[style_.plainPaint].material);

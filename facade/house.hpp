@@ -32,7 +32,9 @@ struct Lot {
 /// A style with its paints as the city knows them.
 struct StyleInUse {
   const Style* style = nullptr;
-  std::vector<PaintLook> looks;    ///< one for each of the style's paints
+  std::vector<PaintLook> looks;  ///< one for each of the style's paints
+  /// For each of its paints, the far picture in the colour of a wall of that paint; empty: as the far paint is.
+  std::vector<city::MaterialId> farOf;
   std::vector<double> parameters;  ///< one for each of the style's; empty: as the style says
 };
 

@@ -101,6 +101,8 @@ constexpr city::Knob kKnobs[] = {
      "off: they stay as they are until they are left out", "on: nothing springs out of a wall"},
     {"house_lod.drop", 1, 0, 1, "on/off", "Things that lie in their walls are left out.",
      "off: slides things and draws them all the same, for comparison", "on is the most"},
+    {"house_lod.fade", 1, 0, 1, "on/off", "Full detail and flat walls share a house's pixels over a band of distance.",
+     "off: a wall becomes flat from one frame to the next", "on: nothing pops"},
 };
 
 constexpr city::Knob kPictureKnobs[] = {
@@ -108,6 +110,11 @@ constexpr city::Knob kPictureKnobs[] = {
      "houses stay at full detail until half a metre is a pixel",
      "a longer start; pictures are at most 40 texels a metre"},
 };
+
+/// Metres from which on a type's walls are flat.
+double wallsFlatFrom(const TypeLevels& type, const LevelView& view) {
+  return std::max(flatFrom(type.openings, view.inverse), static_cast<double>(type.detail) * view.pixelsPerSlope);
+}
 
 }  // namespace
 
@@ -145,11 +152,18 @@ TypeLevels levelsOf(const city::BuildingGeometry& type) {
 }
 
 Level levelAt(const TypeLevels& type, const LevelView& view, double distance) {
-  if (!type.flat || !(distance >= flatFrom(type.openings, view.inverse))) return kFullDetail;
-  if (!(distance >= static_cast<double>(type.detail) * view.pixelsPerSlope)) return kFullDetail;
+  if (!type.flat || !(distance >= wallsFlatFrom(type, view))) return kFullDetail;
   size_t gone = 0;
   while (gone < type.reaches.size() && distance >= flatFrom(type.reaches[gone], view.inverse)) ++gone;
   return static_cast<Level>(1 + gone);
+}
+
+double flatShareAt(const TypeLevels& type, const LevelView& view, double distance) {
+  if (!type.flat) return 0;
+  const double from = wallsFlatFrom(type, view);
+  if (!(distance >= from) || !std::isfinite(from)) return 0;
+  if (distance >= from * kFadeBand) return 1;
+  return (distance - from) / (from * (kFadeBand - 1));
 }
 
 std::span<const city::Knob> houseLodKnobs() {

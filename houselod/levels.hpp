@@ -52,6 +52,15 @@ struct LevelView {
 /// in its wall; a distance that is not a number gives full detail.
 Level levelAt(const TypeLevels& type, const LevelView& view, double distance);
 
+/// From the distance at which a type's walls become flat to so many times that, full detail fades into flat walls: at
+/// a walk some seconds, so that no frame changes more than a few pixels of a wall.
+constexpr double kFadeBand = 1.15;
+
+/// Share of its pixels that show flat walls, the rest full detail: 0 at the switch and nearer, a straight line to 1 at
+/// kFadeBand times the switch's distance. A distance that is not a number, and a type that is never flat: 0; where
+/// walls are flat from everywhere, 1.
+double flatShareAt(const TypeLevels& type, const LevelView& view, double distance);
+
 /// house_lod, house_lod.scalar, …
 std::span<const city::Knob> houseLodKnobs();
 /// house_lod.picture_mb: shapes what is drawn from, not the plan alone.

@@ -44,7 +44,8 @@ constexpr int kPictureGrid = 8;
 /// A wall's picture need not be finer than its materials are: texels a metre.
 constexpr double kFinestPicture = 40;
 
-/// Coarser ones are not worth having: half a metre a texel shows no window.
+/// Coarser ones are not worth having: under four texels a metre a window is three texels wide, and a style's far
+/// texture shows it better.
 constexpr double kCoarsestPicture = 4;
 constexpr int kPageSize = 512;
 

@@ -2,7 +2,6 @@
 #include "plan/house_levels.hpp"
 
 #include "houselod/slide.hpp"
-#include "houselod/texture_plan.hpp"
 
 namespace vicus::plan {
 namespace {
@@ -21,14 +20,9 @@ HouseLodScene lookAtHouses(const city::City& city, const city::Knobs& knobs) {
   scene.scalar = knobs["house_lod.scalar"];
   scene.slide = knobs.on("house_lod.slide");
   scene.drop = knobs.on("house_lod.drop");
-  scene.types.reserve(city.buildingTypes.size());
-  const double megabytes = knobs.has("house_lod.picture_mb") ? knobs["house_lod.picture_mb"] : 0;
-  const houselod::TexturePlan pictures = houselod::picturesWithin(city.buildingTypes, megabytes);
-  for (size_t t = 0; t < city.buildingTypes.size(); ++t) {
-    scene.types.push_back(houselod::levelsOf(city.buildingTypes[t]));
-    if (pictures.detail[t] > 0) scene.types.back().detail = pictures.detail[t];
-    scene.flatTypes += scene.types.back().flat ? 1 : 0;
-  }
+  scene.fade = knobs.on("house_lod.fade");
+  scene.types = std::make_shared<const houselod::HouseTypes>(houselod::lookAtTypes(city.buildingTypes, knobs));
+  for (const houselod::TypeLevels& type : scene.types->levels) scene.flatTypes += type.flat ? 1 : 0;
   scene.on = scene.flatTypes > 0;
   return scene;
 }
@@ -42,9 +36,13 @@ void chooseLevels(const city::City& city, const HouseLodScene& scene, city::Fram
   plan.houseLod.levels.resize(houses.size());
   for (const city::Range& run : plan.buildings.drawn)
     for (uint32_t i = run.first; i < run.end(); ++i) {
-      const houselod::TypeLevels& type = scene.types[houses.instances[i].geometry];
-      const houselod::Level level = houselod::levelAt(type, view, distanceTo(houses.bounds[i], plan.view.eye));
+      const houselod::TypeLevels& type = scene.types->levels[houses.instances[i].geometry];
+      const double distance = distanceTo(houses.bounds[i], plan.view.eye);
+      const houselod::Level level = houselod::levelAt(type, view, distance);
       plan.houseLod.levels[i] = level;
+      if (level == houselod::kFullDetail || !scene.fade) continue;
+      const auto share = static_cast<float>(houselod::flatShareAt(type, view, distance));
+      if (share < 1) plan.houseLod.fades.push_back({i, share});
       plan.counts.instancesFlat += type.flat && level == type.reaches.size() + 1;
     }
 }

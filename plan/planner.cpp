@@ -406,6 +406,10 @@ const std::vector<FeatureReport>& Planner::features() const {
   return impl_->features;
 }
 
+std::shared_ptr<const houselod::HouseTypes> Planner::houses() const {
+  return impl_->scene.houseLod.types;
+}
+
 std::vector<std::string> Planner::steps() const {
   std::vector<std::string> names;
   for (const Step& step : impl_->steps) names.emplace_back(step.name);

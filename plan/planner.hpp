@@ -11,6 +11,7 @@
 #include "city/frame_plan.hpp"
 #include "city/knob.hpp"
 #include "culling/cull_map.hpp"
+#include "houselod/house_types.hpp"
 #include "plan/people.hpp"
 #include "terrain/roam.hpp"
 
@@ -52,6 +53,8 @@ class Planner {
 
   /// Every technique and kind of content, on or off, with the reason.
   const std::vector<FeatureReport>& features() const;
+  /// What house LOD knows of the building types, for drawing by the plans; null where it is off.
+  std::shared_ptr<const houselod::HouseTypes> houses() const;
   /// Names of the steps in the order run.
   std::vector<std::string> steps() const;
 

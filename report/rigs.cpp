@@ -19,7 +19,9 @@ Rig* Rigs::rigFor(const city::Knobs& knobs, std::string& error) {
   if (!rig->context) return nullptr;
   rig->context->makeCurrent();
   city::Diagnostics diagnostics;
-  rig->scene = std::make_unique<scenegraph::Scene>(city_, knobs, diagnostics);
+  city::Knobs forAll = knobs;
+  forAll.set("house_lod", 1);  // runs without it draw the same scene, where nothing is flat
+  rig->scene = std::make_unique<scenegraph::Scene>(city_, forAll, diagnostics);
   rig->renderer =
       std::make_unique<viewer::Renderer>(*rig->context, *rig->scene, static_cast<int>(knobs[kMultisamples]));
   return rigs_.emplace_back(std::move(rig)).get();

@@ -7,7 +7,8 @@
 namespace vicus::scenegraph {
 namespace {
 
-/// A type's vertices and indices with its walls' pictures put on its flat surfaces.
+/// A type's vertices and indices with its walls' pictures put on its flat surfaces. Vertices have as their item the
+/// material whose tint a house's seed shifts: their own, on flat surfaces that of the wall, so that the shift stays.
 struct Pictured {
   std::vector<city::Vertex> vertices;
   std::vector<uint32_t> indices;
@@ -17,7 +18,13 @@ struct Pictured {
 Pictured withPictures(const city::BuildingGeometry& g, const houselod::TexturePlan& plan,
                       std::span<const houselod::PlanePicture> pictures, city::MaterialId firstPage) {
   Pictured out{g.vertices, g.indices, {}};
-  for (const city::Plane& plane : g.planes) out.flats.push_back(plane.flat);
+  for (city::Vertex& v : out.vertices) v.item = v.material;
+  for (const city::Plane& plane : g.planes) {
+    out.flats.push_back(plane.flat);
+    if (plane.flat != plane.cut)
+      for (uint32_t i = plane.flat.first; i < plane.flat.end(); ++i)
+        out.vertices[g.indices[i]].item = plane.baseTexture;
+  }
   for (const houselod::PlanePicture& picture : pictures) {
     const city::Plane& plane = g.planes[picture.plane];
     const houselod::PlaneFrame frame = houselod::planeFrame(g, plane);
@@ -26,7 +33,7 @@ Pictured withPictures(const city::BuildingGeometry& g, const houselod::TexturePl
     for (uint32_t i = plane.flat.first; i < plane.flat.end(); ++i) {
       city::Vertex v = g.vertices[g.indices[i]];
       v.uv = houselod::onPage(plan, picture, frame, v.position);
-      v.item = v.material;
+      v.item = plane.baseTexture;
       v.material = static_cast<city::MaterialId>(firstPage + picture.page);
       out.indices.push_back(static_cast<uint32_t>(out.vertices.size()));
       out.vertices.push_back(v);
@@ -64,7 +71,21 @@ std::vector<Piece> piecesOf(const city::BuildingGeometry& g, std::span<const cit
   return pieces;
 }
 
+/// Every item in one step, and no flat walls.
+houselod::TypeLevels fullDetailOf(const city::BuildingGeometry& g) {
+  houselod::TypeLevels levels;
+  levels.reaches = {0};
+  levels.stepOf.assign(g.externalGeometry.size(), 0);
+  return levels;
+}
+
 }  // namespace
+
+bool Arena::hasFlat() const {
+  return std::any_of(runs.begin(), runs.end(), [](const ArenaRun& run) {
+    return std::any_of(std::begin(run.parts), std::end(run.parts), [](const ArenaPiece& p) { return p.end > p.flat; });
+  });
+}
 
 bool Arena::has(ArenaPart part) const {
   return std::any_of(runs.begin(), runs.end(), [&](const ArenaRun& run) {
@@ -136,7 +157,9 @@ void addGeometry(Arena& arena, std::span<const city::Vertex> vertices, std::span
 }
 
 Arena buildingArena(const city::City& city, std::span<const uint8_t> cutOut, Ordering ordering,
-                    const houselod::TexturePlan& pictures, city::MaterialId firstPage) {
+                    const houselod::HouseTypes* houses, city::MaterialId firstPage) {
+  const houselod::TexturePlan none;
+  const houselod::TexturePlan& pictures = houses ? houses->pictures : none;
   Arena arena;
   arena.geometries.reserve(city.buildingTypes.size());
   std::vector<city::MaterialId> materials;
@@ -145,23 +168,17 @@ Arena buildingArena(const city::City& city, std::span<const uint8_t> cutOut, Ord
     const city::BuildingGeometry& g = city.buildingTypes[t];
     const size_t firstPicture = nextPicture;
     while (nextPicture < pictures.pictures.size() && pictures.pictures[nextPicture].type == t) ++nextPicture;
-    const houselod::TypeLevels levels = houselod::levelsOf(g);
+    const houselod::TypeLevels levels = houses ? houses->levels[t] : fullDetailOf(g);
     materials.clear();
     if (ordering == Ordering::Scene)
       for (const city::Plane& plane : g.planes) materials.push_back(plane.baseTexture);
     else
       materials.push_back(g.planes.empty() ? city::MaterialId{0} : g.planes[0].baseTexture);
     const auto steps = static_cast<uint32_t>(levels.reaches.size());
-    if (nextPicture > firstPicture) {
-      const Pictured pictured = withPictures(
-          g, pictures, std::span(pictures.pictures).subspan(firstPicture, nextPicture - firstPicture), firstPage);
-      addGeometry(arena, pictured.vertices, pictured.indices, piecesOf(g, pictured.flats, levels, ordering), materials,
-                  steps, cutOut);
-    } else {
-      std::vector<city::Range> flats;
-      for (const city::Plane& plane : g.planes) flats.push_back(plane.flat);
-      addGeometry(arena, g.vertices, g.indices, piecesOf(g, flats, levels, ordering), materials, steps, cutOut);
-    }
+    const Pictured pictured = withPictures(
+        g, pictures, std::span(pictures.pictures).subspan(firstPicture, nextPicture - firstPicture), firstPage);
+    addGeometry(arena, pictured.vertices, pictured.indices, piecesOf(g, pictured.flats, levels, ordering), materials,
+                steps, cutOut);
   }
   return arena;
 }

@@ -7,8 +7,7 @@
 
 #include "city/city.hpp"
 #include "city/vertex.hpp"
-#include "houselod/levels.hpp"
-#include "houselod/texture_plan.hpp"
+#include "houselod/house_types.hpp"
 
 namespace vicus::scenegraph {
 
@@ -68,6 +67,7 @@ struct Arena {
   std::vector<uint32_t> steps;
 
   bool has(ArenaPart part) const;
+  bool hasFlat() const;  ///< some geometry has flat surfaces
 };
 
 /// The indices of a run's part at a level; the level is one of its geometry's.
@@ -93,10 +93,11 @@ void addGeometry(Arena& arena, std::span<const city::Vertex> vertices, std::span
                  std::vector<Piece> pieces, std::span<const city::MaterialId> runs, uint32_t steps,
                  std::span<const uint8_t> cutOut, uint64_t chunkBytes = kArenaChunkBytes);
 
-/// All building types in all their levels. Flat walls show their pictures on the pages, which are the materials from
-/// `firstPage` on; their vertices' item is the wall's own material then, whose tint a seed shifts.
+/// All building types in all their levels, or at full detail alone where `houses` is null. Flat walls show their
+/// pictures on the pages, which are the materials from `firstPage` on; their vertices' item is the wall's own material
+/// then, whose tint a seed shifts.
 Arena buildingArena(const city::City& city, std::span<const uint8_t> cutOut, Ordering ordering,
-                    const houselod::TexturePlan& pictures = {}, city::MaterialId firstPage = 0);
+                    const houselod::HouseTypes* houses, city::MaterialId firstPage = 0);
 /// All tree types, a run each.
 Arena treeArena(const city::City& city, std::span<const uint8_t> cutOut);
 

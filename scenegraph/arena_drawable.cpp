@@ -1,5 +1,7 @@
 #include "scenegraph/arena_drawable.hpp"
 
+#include <algorithm>
+#include <cassert>
 #include <osg/RenderInfo>
 #include <osg/State>
 
@@ -25,6 +27,12 @@ constexpr VertexAttribute kInstanceAttributes[] = {
 };
 
 }  // namespace
+
+uint32_t fadingTile(uint32_t tile, FadeSide side, float share) {
+  assert(tile < 0x8000u);
+  const auto steps = static_cast<uint32_t>(std::clamp(share, 0.0f, 1.0f) * 65535.0f + 0.5f);
+  return tile | (side == FadeSide::Flat ? 0x8000u : 0u) | steps << 16;
+}
 
 ArenaBuffers::ArenaBuffers(Arena arena) : arena_(std::move(arena)) {
   for (const ArenaChunk& chunk : arena_.chunks) {
@@ -58,8 +66,15 @@ void ArenaBuffers::release() {
 InstanceGroup::InstanceGroup(std::vector<GpuInstance> instances, std::vector<uint32_t> geometryOf)
     : geometries(std::move(geometryOf)), instances_(std::move(instances)) {}
 
+void InstanceGroup::replace(std::vector<GpuInstance> instances, std::vector<uint32_t> geometriesOf) {
+  assert(instances.size() == geometriesOf.size());
+  instances_ = std::move(instances);
+  geometries = std::move(geometriesOf);
+  drawn.clear();
+}
+
 GLuint InstanceGroup::buffer() {
-  if (!buffer_.exists()) {
+  if (!buffer_.exists() || !instances_.empty()) {
     buffer_.fill(std::span<const GpuInstance>(instances_), GL_STATIC_DRAW);
     instances_ = {};
   }

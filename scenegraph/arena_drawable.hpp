@@ -25,6 +25,13 @@ struct GpuInstance {
 };
 static_assert(sizeof(GpuInstance) == 32);
 
+/// The two levels of a house in a fade: `Flat` keeps the pixels whose threshold lies under the share, `Full` the
+/// others.
+enum class FadeSide : uint8_t { Full, Flat };
+/// An instance's tile as shaders/instance.vert reads it with FADES: the tile's number (under 2¹⁵), the side, and the
+/// share (0 to 1) in steps of 2⁻¹⁶.
+uint32_t fadingTile(uint32_t tile, FadeSide side, float share);
+
 /// An arena on the graphics card: uploaded when it is first drawn, after which only what drawing needs is kept.
 class ArenaBuffers {
  public:
@@ -51,6 +58,8 @@ class InstanceGroup {
  public:
   explicit InstanceGroup(std::vector<GpuInstance> instances, std::vector<uint32_t> geometries);
   size_t size() const { return geometries.size(); }
+  /// Others in place of all, with their geometries; none is drawn until it is put into `drawn`.
+  void replace(std::vector<GpuInstance> instances, std::vector<uint32_t> geometriesOf);
   /// The buffer of GpuInstance. With the context current.
   GLuint buffer();
   void release() { buffer_.release(); }
@@ -64,7 +73,7 @@ class InstanceGroup {
   std::vector<Drawn> drawn;  ///< in the order drawn
 
  private:
-  std::vector<GpuInstance> instances_;
+  std::vector<GpuInstance> instances_;  ///< until they are in the buffer
   GlBuffer buffer_;
 };
 

@@ -25,8 +25,8 @@ struct SceneParts {
   std::shared_ptr<TileTable> tiles;
   std::shared_ptr<const MaterialTextures> textures;
   Ordering ordering = Ordering::ByState;
-  houselod::TexturePlan pictures;          ///< of houses' walls; none where there is no room for them
-  osg::ref_ptr<osg::Texture2D> groundMap;  ///< null where the scene has no terrain
+  std::shared_ptr<const houselod::HouseTypes> houses;  ///< null where nothing is ever flat
+  osg::ref_ptr<osg::Texture2D> groundMap;              ///< null where the scene has no terrain
 };
 
 /// Content of one kind under one node of the graph.
@@ -69,7 +69,9 @@ class Feature {
 };
 
 std::unique_ptr<Feature> makeSky();
+/// The city must outlive the feature.
 std::unique_ptr<Feature> makeBuildings(const city::City& city, const SceneParts& parts);
+/// The city must outlive the feature.
 std::unique_ptr<Feature> makeTrees(const city::City& city, const SceneParts& parts);
 std::unique_ptr<Feature> makeMonuments(const city::City& city, const SceneParts& parts);
 std::unique_ptr<Feature> makeTerrain(const city::City& city, const SceneParts& parts);

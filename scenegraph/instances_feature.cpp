@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "scenegraph/features.hpp"
 
@@ -36,7 +37,13 @@ struct InstanceContent {
 class Instances : public Feature {
  public:
   Instances(const city::City& city, const SceneParts& parts, InstanceContent content)
-      : Feature(content.name), ordering_(parts.ordering), isTrees_(!content.ownItems) {
+      : Feature(content.name),
+        city_(city),
+        set_(*content.set),
+        tiles_(parts.tiles),
+        firstItem_(content.ownItems ? std::optional(content.firstItem) : std::nullopt),
+        ordering_(parts.ordering),
+        isTrees_(!content.ownItems) {
     buffers_ = std::make_shared<ArenaBuffers>(std::move(content.arena));
     gpuBytes_ = buffers_->bytes() + content.set->size() * sizeof(GpuInstance);
 
@@ -64,13 +71,17 @@ class Instances : public Feature {
       }
       if (group.tiles.empty()) continue;
       group.first = group.tiles.front().run.first;
-      addGroup(std::move(group), city, parts, content, looks, groupName(city.grid, g * tilesOfGroup, tilesOfGroup));
+      addGroup(std::move(group), parts, content, looks, groupName(city.grid, g * tilesOfGroup, tilesOfGroup));
     }
+    // After the groups, whose children are put in order each frame.
+    if (!isTrees_ && buffers_->arena().hasFlat()) addFading(parts, defines);
   }
 
   DrawCounts apply(const city::FramePlan& plan) override {
     const city::SetPlan& set = isTrees_ ? plan.trees : plan.buildings;
-    const std::span<const uint8_t> levels = isTrees_ ? std::span<const uint8_t>() : plan.houseLod.levels;
+    std::span<const uint8_t> levels;
+    std::span<const city::HouseFade> fades;
+    if (fading_) levels = plan.houseLod.levels, fades = plan.houseLod.fades;
     // Near to far, so that what is hidden is hidden before it is shaded; scene order where ordering is off.
     if (ordering_ == Ordering::ByState) {
       for (GroupOfTiles& g : groups_) {
@@ -85,11 +96,13 @@ class Instances : public Feature {
         if (node_->getChild(i) != groups_[i].node) node_->setChild(i, groups_[i].node);
     }
     DrawCounts counts;
+    fades_.clear();
     for (GroupOfTiles& g : groups_) {
       g.instances->drawn.clear();
-      for (const TileRun& tile : g.tiles) addDrawn(g, tile.run, set.drawn, levels);
+      for (const TileRun& tile : g.tiles) addDrawn(g, tile.run, set.drawn, levels, fades);
       for (ArenaDrawable* drawable : g.drawables) counts += drawable->apply();
     }
+    if (fading_) counts += applyFading(levels);
     return counts;
   }
 
@@ -109,19 +122,68 @@ class Instances : public Feature {
     double distance2 = 0;
   };
 
-  void addGroup(GroupOfTiles group, const city::City& city, const SceneParts& parts, const InstanceContent& content,
+  GpuInstance gpuInstance(uint32_t i) const {
+    const city::Instance& instance = set_.instances[i];
+    const uint32_t tile = city_.grid.tileAt(instance.position.x, instance.position.y);
+    const auto heading = static_cast<double>(instance.heading);
+    return {glm::vec3(instance.position - tiles_->base(tile)), tile,
+            glm::vec2(glm::dvec2(std::cos(heading), std::sin(heading))), instance.seed,
+            firstItem_ ? *firstItem_ + i : city::kItemOther};
+  }
+
+  /// What houses that fade are drawn by: their shaders alone pay for leaving out pixels.
+  void addFading(const SceneParts& parts, std::vector<std::string> defines) {
+    fading_ = std::make_shared<InstanceGroup>(std::vector<GpuInstance>(), std::vector<uint32_t>());
+    osg::ref_ptr<osg::Group> node = new osg::Group;
+    node->setName(node_->getName() + "/fading");
+    defines.emplace_back("FADES");
+    for (const ArenaPart part : {ArenaPart::Opaque, ArenaPart::CutOut}) {
+      if (!buffers_->arena().has(part)) continue;
+      const PassId pass = part == ArenaPart::Opaque ? PassId::Opaque : PassId::CutOut;
+      if (part == ArenaPart::CutOut) defines.emplace_back("CUT_OUT");
+      osg::ref_ptr<ArenaDrawable> drawable =
+          new ArenaDrawable(buffers_, fading_, parts.tiles, parts.textures, part, ordering_);
+      drawable->setName(part == ArenaPart::Opaque ? "opaque" : "cut-out");
+      node->addChild(drawable);
+      fadingDrawables_.push_back(drawable);
+      addSurface(drawable, surfaceStates(pass, "instance.vert", "surface.frag", defines), pass);
+    }
+    node_->addChild(node);
+  }
+
+  /// Draws each house that fades twice: at full detail and at its level.
+  DrawCounts applyFading(std::span<const uint8_t> levels) {
+    std::vector<GpuInstance> gpu;
+    std::vector<uint32_t> geometries;
+    for (const city::HouseFade& fade : fades_) {
+      const GpuInstance whole = gpuInstance(fade.building);
+      for (const FadeSide side : {FadeSide::Full, FadeSide::Flat}) {
+        gpu.push_back(whole);
+        gpu.back().tile = fadingTile(whole.tile, side, fade.share);
+        geometries.push_back(set_.instances[fade.building].geometry);
+      }
+    }
+    fading_->replace(std::move(gpu), std::move(geometries));
+    for (uint32_t k = 0; k < fades_.size(); ++k) {
+      fading_->drawn.push_back({2 * k, houselod::kFullDetail});
+      fading_->drawn.push_back({2 * k + 1, levels[fades_[k].building]});
+    }
+    DrawCounts counts;
+    for (ArenaDrawable* drawable : fadingDrawables_) {
+      hide(drawable, fades_.empty());
+      counts += drawable->apply();
+    }
+    return counts;
+  }
+
+  void addGroup(GroupOfTiles group, const SceneParts& parts, const InstanceContent& content,
                 const std::vector<std::pair<ArenaPart, SurfaceStates>>& looks, const std::string& tilesName) {
     std::vector<GpuInstance> gpu;
     std::vector<uint32_t> geometries;
     const uint32_t end = group.tiles.back().run.end();
     for (uint32_t i = group.first; i < end; ++i) {
-      const city::Instance& instance = content.set->instances[i];
-      const uint32_t tile = city.grid.tileAt(instance.position.x, instance.position.y);
-      const auto heading = static_cast<double>(instance.heading);
-      gpu.push_back({glm::vec3(instance.position - parts.tiles->base(tile)), tile,
-                     glm::vec2(glm::dvec2(std::cos(heading), std::sin(heading))), instance.seed,
-                     content.ownItems ? content.firstItem + i : city::kItemOther});
-      geometries.push_back(instance.geometry);
+      gpu.push_back(gpuInstance(i));
+      geometries.push_back(set_.instances[i].geometry);
     }
     group.instances = std::make_shared<InstanceGroup>(std::move(gpu), std::move(geometries));
     group.node = new osg::Group;
@@ -138,20 +200,35 @@ class Instances : public Feature {
     groups_.push_back(std::move(group));
   }
 
-  /// Adds the part of the plan's ascending runs that lies in `tile`, as numbers within the group.
-  static void addDrawn(GroupOfTiles& group, const city::Range& tile, const std::vector<city::Range>& drawn,
-                       std::span<const uint8_t> levels) {
+  /// Adds the part of the plan's ascending runs that lies in `tile`, as numbers within the group;
+  /// those that fade go into `fades_`.
+  void addDrawn(GroupOfTiles& group, const city::Range& tile, const std::vector<city::Range>& drawn,
+                std::span<const uint8_t> levels, std::span<const city::HouseFade> fades) {
+    auto fade = std::lower_bound(fades.begin(), fades.end(), tile.first,
+                                 [](const city::HouseFade& f, uint32_t first) { return f.building < first; });
     auto run = std::upper_bound(drawn.begin(), drawn.end(), tile.first,
                                 [](uint32_t first, const city::Range& r) { return first < r.end(); });
     for (; run != drawn.end() && run->first < tile.end(); ++run)
-      for (uint32_t i = std::max(run->first, tile.first), end = std::min(run->end(), tile.end()); i < end; ++i)
-        group.instances->drawn.push_back({i - group.first, levels.empty() ? houselod::kFullDetail : levels[i]});
+      for (uint32_t i = std::max(run->first, tile.first), end = std::min(run->end(), tile.end()); i < end; ++i) {
+        while (fade != fades.end() && fade->building < i) ++fade;
+        if (fade != fades.end() && fade->building == i)
+          fades_.push_back(*fade++);
+        else
+          group.instances->drawn.push_back({i - group.first, levels.empty() ? houselod::kFullDetail : levels[i]});
+      }
   }
 
+  const city::City& city_;
+  const city::InstanceSet& set_;
+  std::shared_ptr<TileTable> tiles_;
+  std::optional<uint32_t> firstItem_;  ///< item id of the first instance; none: all write kItemOther
   Ordering ordering_;
   bool isTrees_;
   std::shared_ptr<ArenaBuffers> buffers_;
   std::vector<GroupOfTiles> groups_;
+  std::shared_ptr<InstanceGroup> fading_;  ///< null where no geometry has flat surfaces
+  std::vector<ArenaDrawable*> fadingDrawables_;
+  std::vector<city::HouseFade> fades_;  ///< of what is drawn, in the order drawn
 };
 
 }  // namespace
@@ -160,7 +237,7 @@ std::unique_ptr<Feature> makeBuildings(const city::City& city, const SceneParts&
   return std::make_unique<Instances>(city, parts,
                                      InstanceContent{&city.buildings,
                                                      buildingArena(city, parts.textures->cutOut, parts.ordering,
-                                                                   parts.pictures, parts.textures->firstPage),
+                                                                   parts.houses.get(), parts.textures->firstPage),
                                                      city.itemOfBuilding(0), true, "buildings"});
 }
 

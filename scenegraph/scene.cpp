@@ -189,10 +189,12 @@ struct Scene::Impl {
   uint64_t sharedBinds = 0;  ///< textures on the root, each bound once a frame
   uint64_t sharedBytes = 0;
   glm::dmat4 eyeFromWorld{1}, clipFromEye{1};
+  bool madeForHouseLod = true;
 };
 
 Scene::Scene(const city::City& city, const city::Knobs& knobs, city::Diagnostics& diagnostics,
-             const assets::Progress& progress, GroundDetail groundDetail)
+             const assets::Progress& progress, GroundDetail groundDetail,
+             std::shared_ptr<const houselod::HouseTypes> houses)
     : impl_(std::make_unique<Impl>()) {
   Impl& s = *impl_;
   s.root->setName("root");
@@ -200,10 +202,16 @@ Scene::Scene(const city::City& city, const city::Knobs& knobs, city::Diagnostics
 
   const double anisotropy = knobs["textures.anisotropy"];
   SceneParts parts;
-  parts.pictures = houselod::picturesWithin(city.buildingTypes, knobs["house_lod.picture_mb"]);
+  // Without house LOD nothing is ever flat.
+  s.madeForHouseLod = !knobs.has("house_lod") || knobs.on("house_lod");
+  if (s.madeForHouseLod && !city.buildings.empty())
+    parts.houses = houses
+                       ? std::move(houses)
+                       : std::make_shared<const houselod::HouseTypes>(houselod::lookAtTypes(city.buildingTypes, knobs));
+  const houselod::TexturePlan noPictures;
   const auto textures = std::make_shared<const MaterialTextures>(
       makeMaterialTextures(city.materials, static_cast<uint64_t>(knobs["textures.budget_mb"]) << 20, anisotropy,
-                           diagnostics, progress, pagesOf(city, parts.pictures)));
+                           diagnostics, progress, pagesOf(city, parts.houses ? parts.houses->pictures : noPictures)));
   parts.tiles = s.tiles;
   parts.textures = textures;
   parts.ordering = knobs.on("state_ordering") ? Ordering::ByState : Ordering::Scene;
@@ -262,6 +270,10 @@ Scene::Scene(const city::City& city, const city::Knobs& knobs, city::Diagnostics
 }
 
 Scene::~Scene() = default;
+
+bool Scene::madeForHouseLod() const {
+  return impl_->madeForHouseLod;
+}
 
 osg::Group* Scene::root() const {
   return impl_->root;

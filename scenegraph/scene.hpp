@@ -11,6 +11,7 @@
 #include "city/city.hpp"
 #include "city/frame_plan.hpp"
 #include "city/knob.hpp"
+#include "houselod/house_types.hpp"
 
 namespace osg {
 class Group;
@@ -56,8 +57,12 @@ GroundDetail paintGroundDetail(city::Diagnostics& diagnostics);
 class Scene {
  public:
   Scene(const city::City& city, const city::Knobs& knobs, city::Diagnostics& diagnostics,
-        const assets::Progress& progress = {}, GroundDetail detail = {});
+        const assets::Progress& progress = {}, GroundDetail detail = {},
+        std::shared_ptr<const houselod::HouseTypes> houses = {});
   ~Scene();
+
+  /// False where it was made with the knob `house_lod` off, and has nothing flat to draw.
+  bool madeForHouseLod() const;
 
   osg::Group* root() const;
   /// Writes the plan into the graph. The camera that draws `root` then needs `eyeFromWorld` and `clipFromEye`.

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <optional>
+#include <string_view>
 
 #include "assets/import/assembly.hpp"
 #include "assets/materials/materials.hpp"
+#include "assets/materials/wall_colours.hpp"
 #include "assets/styles/styles.hpp"
 
 namespace vicus::assets {
@@ -14,6 +17,15 @@ namespace {
 bool isBuiltin(const std::string& texture) {
   const std::vector<std::string> names = builtinMaterialNames();
   return std::find(names.begin(), names.end(), texture) != names.end();
+}
+
+/// The number of a material, entered where it is new; the last one where there is no room.
+facade::PaintLook entered(Assembly& a, const city::Material& material) {
+  size_t number =
+      static_cast<size_t>(std::find(a.materials.begin(), a.materials.end(), material) - a.materials.begin());
+  if (number == a.materials.size() && number < kMostOwnMaterials) a.materials.push_back(material);
+  number = std::min(number, a.materials.size() - 1);
+  return {ownMaterial(number), material.metresPerRepeat};
 }
 
 /// The look of a paint: a built-in texture, or a picture where it is a path. Without a name it is a colour alone.
@@ -31,11 +43,27 @@ facade::PaintLook lookOf(Assembly& a, const facade::Paint& paint, const std::str
     }
   }
   material.tint *= paint.colour;
-  size_t number =
-      static_cast<size_t>(std::find(a.materials.begin(), a.materials.end(), material) - a.materials.begin());
-  if (number == a.materials.size() && number < kMostOwnMaterials) a.materials.push_back(material);
-  number = std::min(number, a.materials.size() - 1);
-  return {ownMaterial(number), material.metresPerRepeat};
+  return entered(a, material);
+}
+
+constexpr std::string_view kBuiltin = "builtin:";
+
+std::optional<glm::vec3> wallColourOf(const city::Material& material) {
+  const std::string_view source = material.source;
+  return source.starts_with(kBuiltin) ? wallColour(source.substr(kBuiltin.size())) : std::nullopt;
+}
+
+/// The far picture on a wall of the look `wallLook`: as bright and as warm as that from far away, shifted by a house's
+/// seed as that is. The far picture as it is where either is no built-in wall.
+facade::PaintLook farLookOf(Assembly& a, const facade::PaintLook& farLook, const facade::PaintLook& wallLook) {
+  const auto of = [&](const facade::PaintLook& look) { return a.materials[look.material - ownMaterial(0)]; };
+  city::Material far = of(farLook);
+  const city::Material wall = of(wallLook);
+  const std::optional<glm::vec3> ofFar = wallColourOf(far), ofWall = wallColourOf(wall);
+  if (!ofFar || !ofWall) return farLook;
+  far.tint = wall.tint * *ofWall / *ofFar;
+  far.tintVariation = wall.tintVariation;
+  return entered(a, far);
 }
 
 }  // namespace
@@ -64,6 +92,9 @@ size_t StylesInUse::use(Assembly& a, const Style& style) {
     if (style.roofStated && covering) paint = {std::string(nameOf(style.roof)), glm::vec3(1)};
     inUse.looks.push_back(lookOf(a, paint, style.rules));
   }
+  if (rules.farPaint != facade::kNothing)
+    for (const facade::PaintLook& wall : inUse.looks)
+      inUse.farOf.push_back(farLookOf(a, inUse.looks[rules.farPaint], wall).material);
   wanted_.push_back(key);
   inUse_.push_back(std::move(inUse));
   return wanted_.size() - 1;

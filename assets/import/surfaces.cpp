@@ -127,13 +127,18 @@ void SurfaceBuilder::add(const Face& face) {
   facade::WallFrame frame;
   facade::WallDetail detail;
   city::MaterialId material = painted ? options_.materials[face.material] : id(finish);
+  city::MaterialId farMaterial = 0;
   if (byRules) {
     const glm::dvec3& p = points_[face.rings[0][0]];
     frame.origin = p + axes.u * (span.left - glm::dot(p, axes.u)), frame.origin.z = foot;
     frame.along = axes.u, frame.width = span.width(), frame.height = span.top - foot;
     detail = detailOf(face, axes, frame);
     const facade::Style& rules = *options_.rules->style;
-    material = options_.rules->looks[detail.fills.empty() ? rules.plainPaint : detail.fills[0].paint].material;
+    const uint32_t base = detail.fills.empty() ? rules.plainPaint : detail.fills[0].paint;
+    material = options_.rules->looks[base].material;
+    if (rules.farPaint != facade::kNothing)
+      farMaterial =
+          options_.rules->farOf.empty() ? options_.rules->looks[rules.farPaint].material : options_.rules->farOf[base];
   }
   hasFlat_ = false;
   wallMaterial_ = byRules ? material : id(options_.style.plain);
@@ -157,11 +162,10 @@ void SurfaceBuilder::add(const Face& face) {
   if (byRules && !detail.attachments.empty()) {
     for (const facade::Attachment& a : detail.attachments)
       facade::addShape(builder_, frame, a, options_.rules->looks, options_.rules->style->plainPaint);
-    if (const uint32_t far = options_.rules->style->farPaint; bays > 0 && far != facade::kNothing) {
+    if (bays > 0 && options_.rules->style->farPaint != facade::kNothing) {
       hasFlat_ = true;
       builder_.beginFlat();
-      builder_.addTriangles(positions, farUvs, mesh.triangles, glm::vec3(face.normal),
-                            options_.rules->looks[far].material);
+      builder_.addTriangles(positions, farUvs, mesh.triangles, glm::vec3(face.normal), farMaterial);
     }
     builder_.beginCut();
   }

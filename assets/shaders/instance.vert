@@ -10,6 +10,13 @@ layout(location = 5) in uint instanceTile;
 layout(location = 6) in vec2 turn;              // cosine and sine of the heading
 layout(location = 7) in uvec2 seedAndItem;
 #include "tiles.glsl"
+#ifdef FADES
+// The tile's number, which of two levels is drawn, and how far the change has gone (fadingTile in arena_drawable.hpp).
+flat out vec2 kept;  // pixels whose threshold lies from x to under y
+#define TILE (instanceTile & 0x7fffu)
+#else
+#define TILE instanceTile
+#endif
 #ifdef SLIDES
 #include "slide.glsl"
 #endif
@@ -35,12 +42,16 @@ out vec4 gloss;
 void main() {
   vec3 turned = vec3(turn.x * vertexPosition.x - turn.y * vertexPosition.y,
                      turn.y * vertexPosition.x + turn.x * vertexPosition.y, vertexPosition.z);
-  vec3 fromEye = tileFromEye[instanceTile].xyz + (instancePosition + turned);
+  vec3 fromEye = tileFromEye[TILE].xyz + (instancePosition + turned);
 #ifdef SLIDES
   vec3 shift = slide(length(fromEye));
   fromEye += vec3(turn.x * shift.x - turn.y * shift.y, turn.y * shift.x + turn.x * shift.y, shift.z);
 #endif
   gl_Position = clipFromEyeRelative * vec4(fromEye, 1.0);
+#ifdef FADES
+  float share = float(instanceTile >> 16) * (1.0 / 65536.0);
+  kept = (instanceTile & 0x8000u) != 0u ? vec2(0.0, share) : vec2(share, 1.0);
+#endif
 #ifdef ITEM_ID
   item = seedAndItem.y;
 #ifdef CUT_OUT
@@ -58,17 +69,20 @@ void main() {
   // Leaves are seen from both sides and let light through: light them as the crown's surface, not as their card.
   normal = normalize(normal + vec3(0.0, 0.0, 0.6));
 #endif
+#ifdef SLIDES
+  uint shifted = vertexMaterial.y;  // flat walls are shifted by a seed as the walls that they stand for
+#else
+  uint shifted = vertexMaterial.x;
+#endif
 #ifdef PICTURES
-  // A wall's picture holds colours and gloss; a seed shifts it as the wall's own material, whose number it has as item.
+  // A wall's picture holds colours and gloss; a seed shifts it as the wall's own material.
   bool pictured = material.gloss.y > 0.0;
-  vec3 tint = tintOf(pictured ? vec4(1.0, 1.0, 1.0, materials[vertexMaterial.y].tint.w) : material.tint, seedAndItem.x,
-                     pictured ? vertexMaterial.y : vertexMaterial.x);
+  vec3 tint = tintOf(pictured ? vec4(1.0, 1.0, 1.0, materials[shifted].tint.w) : material.tint, seedAndItem.x, shifted);
   Seen s = seen(fromEye, normal, tint, material.gloss.x);
   Seen mirror = seen(fromEye, normal, tint, 1.0);
   gloss = pictured ? vec4(mirror.add - s.add, 1.0 - mirror.scale.g / max(s.scale.g, 1e-6)) : vec4(0.0);
 #else
-  Seen s = seen(fromEye, normal, tintOf(material.tint, seedAndItem.x, vertexMaterial.x),
-                material.gloss.x);
+  Seen s = seen(fromEye, normal, tintOf(material.tint, seedAndItem.x, shifted), material.gloss.x);
 #endif
   scale = s.scale;
   add = s.add;

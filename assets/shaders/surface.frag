@@ -35,11 +35,25 @@ vec4 texel() {
 }
 #endif
 
+#ifdef FADES
+flat in vec2 kept;
+
+// Leaves the pixel to the other of two levels: each threshold, the same for a pixel in every frame, is kept by one of
+// them. Interleaved gradient noise (Jimenez 2014) spreads thresholds evenly over any few neighbours.
+void fade() {
+  float threshold = fract(52.9829189 * fract(dot(floor(gl_FragCoord.xy), vec2(0.06711056, 0.00583715))));
+  if (threshold < kept.x || threshold >= kept.y) discard;
+}
+#endif
+
 #ifdef ITEM_ID
 flat in uint item;
 layout(location = 0) out uint shownItem;
 
 void main() {
+#ifdef FADES
+  fade();
+#endif
 #ifdef CUT_OUT
   if (texel().a < 0.5) discard;
 #endif
@@ -57,6 +71,9 @@ layout(location = 0) out vec4 shown;
 
 void main() {
   vec4 t = texel();
+#ifdef FADES
+  fade();
+#endif
   float cover = 1.0;
 #ifdef CUT_OUT
   // The edge lies where alpha is one half; over a pixel's width it becomes coverage of the pixel's samples.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <set>
 
 #include "houselod/slide.hpp"
@@ -62,6 +63,20 @@ TEST(Levels, WaitUntilAPixelCoversTheFinestThatFlatWallsShow) {
   const LevelView view{kView.inverse, 600};
   EXPECT_EQ(levelAt(levels, view, 299), kFullDetail);
   EXPECT_NE(levelAt(levels, view, 301), kFullDetail);
+}
+
+TEST(Levels, FlatWallsTakeOverPixelByPixelOverABandOfDistance) {
+  const TypeLevels levels = levelsOf(house());
+  const double from = 4 * kScalar * 0.3;  // the door is flush
+  EXPECT_EQ(flatShareAt(levels, kView, 0), 0);
+  EXPECT_NEAR(flatShareAt(levels, kView, from * (1 + 1e-6)), 0, 1e-4);
+  EXPECT_NEAR(flatShareAt(levels, kView, from * (1 + kFadeBand) / 2), 0.5, 1e-6);
+  EXPECT_EQ(flatShareAt(levels, kView, from * kFadeBand * 1.001), 1);
+  EXPECT_EQ(flatShareAt(levels, kView, std::numeric_limits<double>::infinity()), 1);
+  EXPECT_EQ(flatShareAt(levels, kView, std::numeric_limits<double>::quiet_NaN()), 0);
+  EXPECT_EQ(flatShareAt(levels, {inverseScalar(0, kReferencePixels), 0}, 1), 1) << "flat from everywhere";
+  EXPECT_EQ(flatShareAt(levels, {0, 0}, 1e12), 0) << "never flat";
+  EXPECT_EQ(flatShareAt({}, kView, 1e9), 0);
 }
 
 TEST(Levels, AHouseWithoutAnythingOnItsWallsHasOne) {

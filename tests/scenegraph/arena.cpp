@@ -68,7 +68,7 @@ city::City twoHouses() {
 }
 
 TEST(Arena, OfNothingIsEmpty) {
-  const Arena arena = buildingArena({}, {}, Ordering::ByState);
+  const Arena arena = buildingArena({}, {}, Ordering::ByState, nullptr);
   EXPECT_TRUE(arena.chunks.empty());
   EXPECT_FALSE(arena.has(ArenaPart::Opaque));
 }
@@ -95,8 +95,9 @@ city::BuildingGeometry decoratedHouse() {
 TEST(Arena, DrawsEachLevelOfEachTypeAndNothingElse) {
   city::City city = twoHouses();
   city.buildingTypes.push_back(decoratedHouse());
+  const houselod::HouseTypes houses = houselod::lookAtTypes(city.buildingTypes, {});
   for (const Ordering ordering : {Ordering::ByState, Ordering::Scene}) {
-    const Arena arena = buildingArena(city, {}, ordering);
+    const Arena arena = buildingArena(city, {}, ordering, &houses);
     ASSERT_EQ(arena.geometries.size(), 3u);
     for (size_t i = 0; i < 3; ++i) {
       const city::BuildingGeometry& from = city.buildingTypes[i];
@@ -111,7 +112,19 @@ TEST(Arena, DrawsEachLevelOfEachTypeAndNothingElse) {
             << from.name << ", level " << level;
     }
   }
-  EXPECT_EQ(buildingArena(city, {}, Ordering::ByState).geometries[2].steps, 2u);
+  EXPECT_EQ(buildingArena(city, {}, Ordering::ByState, &houses).geometries[2].steps, 2u);
+}
+
+TEST(Arena, WithoutHouseLodHasFullDetailAlone) {
+  city::City city = twoHouses();
+  city.buildingTypes.push_back(decoratedHouse());
+  const Arena arena = buildingArena(city, {}, Ordering::ByState, nullptr);
+  EXPECT_FALSE(arena.hasFlat());
+  for (size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(drawnAt(arena, arena.geometries[i], houselod::kFullDetail),
+              expectedAt(city.buildingTypes[i], houselod::kFullDetail));
+  const houselod::HouseTypes houses = houselod::lookAtTypes(city.buildingTypes, {});
+  EXPECT_TRUE(buildingArena(city, {}, Ordering::ByState, &houses).hasFlat());
 }
 
 /// A gable with an opening but no surface without it: flat, the opening still closes the hole.
@@ -127,7 +140,8 @@ TEST(Arena, LeavesNoHoleOpenWhereAWallHasNoFlatSurface) {
   builder.addQuad({2, 4.05f, 1}, {1, 4.05f, 1}, {1, 4.05f, 2}, {2, 4.05f, 2}, 0);
   city::City city;
   city.buildingTypes = {builder.finish()};
-  const Arena arena = buildingArena(city, {}, Ordering::ByState);
+  const houselod::HouseTypes houses = houselod::lookAtTypes(city.buildingTypes, {});
+  const Arena arena = buildingArena(city, {}, Ordering::ByState, &houses);
   const ArenaGeometry& g = arena.geometries[0];
   EXPECT_EQ(drawnAt(arena, g, houselod::kFullDetail).size(), 8u);
   EXPECT_EQ(drawnAt(arena, g, 1).size(), 8u);
@@ -138,9 +152,10 @@ TEST(Arena, LeavesNoHoleOpenWhereAWallHasNoFlatSurface) {
 TEST(Arena, PutsPicturesOnFlatWallsAlone) {
   city::City city;
   city.buildingTypes = {gabledHouse("a", 7, 5, 2.6f, 5), decoratedHouse()};
-  const houselod::TexturePlan plan = houselod::planPictures(city.buildingTypes, 1, 128);
+  houselod::HouseTypes houses = houselod::lookAtTypes(city.buildingTypes, {});
+  houses.pictures = houselod::planPictures(city.buildingTypes, 1, 128);
   constexpr city::MaterialId kFirstPage = 100;
-  const Arena arena = buildingArena(city, {}, Ordering::ByState, plan, kFirstPage);
+  const Arena arena = buildingArena(city, {}, Ordering::ByState, &houses, kFirstPage);
   const ArenaGeometry& g = arena.geometries[1];
   const ArenaChunk& chunk = arena.chunks[g.chunk];
   const auto pictured = [&](houselod::Level level) {
@@ -195,7 +210,8 @@ TEST(Arena, AGeometryLargerThanAChunkGetsItsOwn) {
 TEST(Arena, ATypeWithoutTrianglesDrawsNothing) {
   city::City city;
   city.buildingTypes.resize(1);
-  const Arena arena = buildingArena(city, {}, Ordering::ByState);
+  const houselod::HouseTypes houses = houselod::lookAtTypes(city.buildingTypes, {});
+  const Arena arena = buildingArena(city, {}, Ordering::ByState, &houses);
   EXPECT_TRUE(drawnAt(arena, arena.geometries[0], 0).empty());
 }
 
