@@ -10,7 +10,8 @@ namespace vicus::assets {
 
 struct ApartLimits {
   double seconds = 8;                     ///< then it is ended
-  uint64_t bytes = uint64_t{1900} << 20;  ///< of memory, besides what the caller has
+  uint64_t bytes = uint64_t{1200} << 20;  ///< of memory, besides what the caller has; under sanitizers it is looked at
+                                          ///< every 20 ms only
 };
 
 /// Runs `work` in a forked process and gives what it returns; nothing, with the reason in `why`, where that process
