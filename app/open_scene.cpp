@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "assets/load_city.hpp"
+#include "assets/scene/apply_scene.hpp"
 #include "viewer/frame_loop.hpp"
 #include "viewer/navigator.hpp"
 
@@ -13,6 +14,7 @@ namespace vicus::app {
 city::Knobs allKnobs() {
   city::Knobs knobs;
   knobs.declare(plan::planKnobs());
+  knobs.declare(light::lightKnobs());
   knobs.declare(scenegraph::sceneKnobs());
   knobs.declare(viewer::viewerKnobs());
   knobs.declare(viewer::navigatorKnobs());
@@ -100,6 +102,7 @@ std::optional<OpenScene> openScene(const SceneOptions& options, const Surroundin
     return std::nullopt;
   }
   scene.city = std::make_unique<city::City>(std::move(*result.city));
+  light::applyTime(scene.city->environment, assets::placeOf(*scene.city, options.shift), scene.knobs);
   scene.ownFiles = ownFilesOf(result);
   scene.diagnostics = std::move(result.diagnostics);
   scene.fromCache = result.fromCache;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "assets/scene/apply_scene.hpp"
 #include "assets/styles/styles.hpp"
 
 namespace vicus::app {
@@ -28,6 +29,7 @@ Rebuilt rebuild(const std::vector<std::string>& files, const std::vector<std::st
   if (!loaded.city) return out;
   out.ownFiles = ownFilesOf(loaded);
   out.city = std::make_unique<city::City>(std::move(*loaded.city));
+  light::applyTime(out.city->environment, assets::placeOf(*out.city, load.shift), knobs);
   out.planner = std::make_unique<plan::Planner>(*out.city, knobs);
   out.scene = std::make_unique<scenegraph::Scene>(*out.city, knobs, out.diagnostics, assets::Progress(), painting.get(),
                                                   out.planner->houses());

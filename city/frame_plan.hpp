@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -87,6 +88,8 @@ struct PlanCounts {
   uint64_t occluders = 0;                      ///< walls drawn into it
 };
 
+struct ShadowPlan;  // city/shadow_plan.hpp
+
 struct FramePlan {
   ViewState view;
   SetPlan buildings;
@@ -96,6 +99,9 @@ struct FramePlan {
   std::vector<uint32_t> tiles;      ///< drawn: tiles whose ground or content may be seen, in Morton order (ascending)
   AvatarPlan avatars;               ///< people
   std::optional<RoamFrame> roam;    ///< the ground; none: the drawn tiles' ground at full detail
+  /// What throws shadows into this view, the nearest cascade first; empty: no shadow maps. Shared with the planner's
+  /// state: a cascade whose plan is the same object is drawn the same.
+  std::vector<std::shared_ptr<const ShadowPlan>> shadows;
   PlanCounts counts;
   std::vector<StageTime> stages;  ///< in the order run
 };

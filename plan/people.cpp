@@ -8,6 +8,7 @@
 #include "avatars/crowd.hpp"
 #include "avatars/pose.hpp"
 #include "city/random.hpp"
+#include "plan/shadows.hpp"
 
 namespace vicus::plan {
 namespace {
@@ -19,10 +20,12 @@ using glm::dvec3;
 constexpr double kNearest = 0.3;  // metres: who is nearer to the eye is no larger
 constexpr double kUp = 8;         // metres that the ground beside a way may lie above or below it
 
-/// As assets/shaders/avatar_shadow.vert draws it: away from the sun, 3 m at most.
-glm::dvec2 shadowOf(const city::Environment& light) {
+/// As assets/shaders/avatar_shadow.vert draws it: away from the sun, 3 m at most; or whole, as shadow maps show it, but
+/// for what the last minutes of sunlight make of it.
+glm::dvec2 shadowOf(const city::Environment& light, bool maps) {
   const glm::dvec2 sun(std::sin(light.sunAzimuth), std::cos(light.sunAzimuth));
-  const double reach = std::min(1.6 * std::cos(light.sunElevation) / std::max(std::sin(light.sunElevation), 0.1), 3.0);
+  const double slope = std::cos(light.sunElevation) / std::max(std::sin(light.sunElevation), 0.1);
+  const double reach = maps ? 2.2 * slope : std::min(1.6 * slope, 3.0);
   return std::isfinite(sun.x) && std::isfinite(reach) ? -reach * sun : glm::dvec2(0);
 }
 
@@ -67,7 +70,7 @@ PeopleScene lookAtPeople(const city::City& city, const city::Knobs& knobs) {
   std::erase_if(scene.persons, [&](const Person& p) { return p.character >= city.people.characters.size(); });
   for (const city::Character& c : city.people.characters) scene.errors.push_back(avatars::levelErrorsOf(c));
 
-  scene.shadow = shadowOf(city.environment);
+  scene.shadow = shadowOf(city.environment, cascadeCount(city, knobs) > 0);
   uint32_t first = 0;
   city::Aabb ways;
   for (const Person& p : scene.persons) {

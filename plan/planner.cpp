@@ -64,6 +64,7 @@ struct Scene {
   culling::CullMapOptions cullMapOptions;
   HouseLodScene houseLod;
   PeopleScene people;
+  ShadowScene shadows;
   bool roam = false;
   terrain::RoamSettings roamSettings;
   /// Made when the first frame needs them: looking at a scene without drawing it stays quick.
@@ -163,6 +164,10 @@ void levelHouses(Frame& frame) {
   chooseLevels(frame.city, frame.scene.houseLod, frame.plan);
 }
 
+void castShadows(Frame& frame) {
+  planShadows(frame.city, frame.scene.shadows, frame.scene.reach, frame.state.shadows, frame.plan);
+}
+
 void meshGround(Frame& frame) {
   const Scene& scene = frame.scene;
   const city::HeightField& field = *frame.city.terrain;
@@ -191,6 +196,7 @@ constexpr Step kSteps[] = {
     {"house lod", [](const Scene& s) { return s.houseLod.on; }, levelHouses},
     {"roam", [](const Scene& s) { return s.roam; }, meshGround},
     {"avatar poses", hasPeople, poseAvatars},
+    {"shadows", [](const Scene& s) { return s.shadows.on(); }, castShadows},
 };
 
 void lookAt(const City& city, const city::Knobs& knobs, Scene& scene) {
@@ -211,6 +217,7 @@ void lookAt(const City& city, const city::Knobs& knobs, Scene& scene) {
   // Sets made without tiles are reached through their own roots.
   for (const city::InstanceSet* set : {&city.buildings, &city.trees})
     if (!set->nodes.empty()) scene.reach.extend(set->nodes[0].bounds);
+  scene.shadows = lookAtShadows(city, knobs, scene.reach);
   if (scene.frustumCulling) scene.tileTree = culling::buildTileTree(city.tiles);
   if (knobs.on("cull_map") && city.buildings.size() >= kFewestBuildings) {
     scene.occluders = culling::occludersOf(city);
@@ -295,6 +302,14 @@ std::vector<FeatureReport> describe(const City& city, const city::Knobs& knobs, 
   features.push_back(content("monuments", city.monuments.size(), "monument", "monuments"));
   features.push_back(content("avatars", scene.people.persons.size(), "person", "people"));
   if (!city.people.empty() && !knobs.on("avatars.shown")) features.back().why = "knob";
+  if (knobs["shadows.cascades"] < 1)
+    why = "knob";
+  else if (scene.shadows.on())
+    why = counted(scene.shadows.reaches.size(), "map", "maps") + " about the eye, to " +
+          std::to_string(static_cast<int>(scene.shadows.reaches.back())) + " m";
+  else
+    why = scene.reach.empty() ? "nothing stands in the scene" : "the sun is down";
+  features.push_back({"shadows", false, scene.shadows.on(), std::move(why)});
   features.push_back(content("water", city.water.size(), "body of water", "bodies of water"));
   features.push_back(content("streets", city.streets ? city.streets->edges.size() : 0, "street", "streets"));
   return features;
@@ -346,6 +361,7 @@ std::span<const city::Knob> planKnobs() {
     std::vector<city::Knob> knobs(std::begin(kCullingKnobs), std::end(kCullingKnobs));
     knobs.insert(knobs.end(), houselod::houseLodKnobs().begin(), houselod::houseLodKnobs().end());
     knobs.insert(knobs.end(), terrain::roamKnobs().begin(), terrain::roamKnobs().end());
+    knobs.insert(knobs.end(), shadowKnobs().begin(), shadowKnobs().end());
     knobs.insert(knobs.end(), avatars::avatarKnobs().begin(), avatars::avatarKnobs().end());
     return knobs;
   }();

@@ -13,6 +13,7 @@
 #include "culling/cull_map.hpp"
 #include "houselod/house_types.hpp"
 #include "plan/people.hpp"
+#include "plan/shadows.hpp"
 #include "terrain/roam.hpp"
 
 namespace vicus::plan {
@@ -29,6 +30,7 @@ struct FeatureReport {
 struct PlannerState {
   size_t runs = 0;     ///< runs of buildings in the last plan: how much room to make for the next; changes no result
   PeopleState people;  ///< their poses
+  ShadowState shadows;
   std::optional<terrain::Roam> ground;  ///< the mesh of this view; refers to the city and to the planner
 };
 

@@ -8,6 +8,7 @@
 #include "culling/stability.hpp"
 #include "facade/stability.hpp"
 #include "houselod/stability.hpp"
+#include "plan/shadow_stability.hpp"
 #include "terrain/stability.hpp"
 
 namespace vicus::report {
@@ -24,6 +25,7 @@ std::vector<city::StabilityRow> allStability() {
   add(facade::rulesStability());
   add(houselod::houseLodStability());
   add(avatars::avatarStability());
+  add(plan::shadowStability());
   return rows;
 }
 

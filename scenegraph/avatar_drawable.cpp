@@ -45,7 +45,8 @@ void AvatarBuffers::show(std::vector<GpuAvatar> people, const std::vector<Body>&
                          const std::vector<std::array<glm::vec4, 3>>& matrices) {
   people_ = std::move(people), matrices_ = matrices, bodyCount_ = bodies.size(), changed_ = true;
   commands_.clear();
-  triangles_ = 2 * (cardCount() + bodyCount_);  // cards, and bodies' shadows
+  throwing_.clear();
+  triangles_ = 2 * cardCount();
   for (size_t k = 0; k < bodies.size();) {
     size_t end = k;
     while (end < bodies.size() && bodies[end].character == bodies[k].character && bodies[end].level == bodies[k].level)
@@ -76,17 +77,31 @@ void AvatarBuffers::upload() {
   commandBuffer_.fill(std::span<const DrawCommand>(commands_), GL_STREAM_DRAW);
 }
 
+size_t AvatarBuffers::throwWithin(float reach) {
+  throwing_.clear();
+  for (const DrawCommand& run : commands_)
+    for (uint32_t k = run.baseInstance; k < run.baseInstance + run.instanceCount; ++k)
+      if (glm::dot(people_[k].fromEye, people_[k].fromEye) <= reach * reach)
+        throwing_.push_back({run.count, 1, run.firstIndex, run.baseVertex, k});
+  return throwing_.size();
+}
+
 void AvatarBuffers::draw(AvatarPart part) {
-  const size_t count = part == AvatarPart::Cards ? cardCount() : bodyCount_;
+  const size_t count = part == AvatarPart::Cards            ? cardCount()
+                       : part == AvatarPart::ThrowingBodies ? throwing_.size()
+                                                            : bodyCount_;
   if (count == 0) return;
   upload();
-  if (part == AvatarPart::Bodies) {
+  if (part == AvatarPart::Bodies || part == AvatarPart::ThrowingBodies) {
+    const bool throwing = part == AvatarPart::ThrowingBodies;
+    const std::vector<DrawCommand>& commands = throwing ? throwing_ : commands_;
+    if (throwing) throwingBuffer_.fill(std::span<const DrawCommand>(throwing_), GL_STREAM_DRAW);
     glBindVertexArray(bodyArray_);
     glBindVertexBuffer(kVertexSource, vertexBuffer_.name(), 0, sizeof(city::AvatarVertex));
     glBindVertexBuffer(kInstanceSource, personBuffer_.name(), 0, sizeof(GpuAvatar));
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kPoseBinding, poseBuffer_.name());
-    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commandBuffer_.name());
-    glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr, static_cast<GLsizei>(commands_.size()), 0);
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, throwing ? throwingBuffer_.name() : commandBuffer_.name());
+    glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr, static_cast<GLsizei>(commands.size()), 0);
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
   } else {
     const auto first = static_cast<GLuint>(part == AvatarPart::Cards ? bodyCount_ : 0);
@@ -103,8 +118,8 @@ void AvatarBuffers::release() {
     if (*array != 0) glDeleteVertexArrays(1, array);
     *array = 0;
   }
-  for (GlBuffer* b :
-       {&vertexBuffer_, &indexBuffer_, &quad_, &quadIndices_, &personBuffer_, &poseBuffer_, &commandBuffer_})
+  for (GlBuffer* b : {&vertexBuffer_, &indexBuffer_, &quad_, &quadIndices_, &personBuffer_, &poseBuffer_,
+                      &commandBuffer_, &throwingBuffer_})
     b->release();
 }
 

@@ -27,8 +27,9 @@ struct GpuAvatar {
 };
 static_assert(sizeof(GpuAvatar) == 48);
 
-/// What is drawn of people: their bodies, or cards in their place, or their shadows.
-enum class AvatarPart : uint8_t { Bodies, Cards, Shadows };
+/// What is drawn of people: their bodies, or cards in their place, or ovals of shadow, or the bodies near the eye as
+/// they throw shadows.
+enum class AvatarPart : uint8_t { Bodies, Cards, Shadows, ThrowingBodies };
 
 /// All bodies and levels, uploaded when first drawn; and of the frame at hand everybody with his pose. Bodies come
 /// first, ordered by body and level, then who is shown by a card. Shared by the drawables of the parts.
@@ -48,6 +49,8 @@ class AvatarBuffers {
   size_t commandCount() const { return commands_.size(); }
   size_t bodyCount() const { return bodyCount_; }
   size_t cardCount() const { return people_.size() - bodyCount_; }
+  /// Of the bodies those within `reach` metres of the eye throw shadows. After `show`; returns how many.
+  size_t throwWithin(float reach);
 
   /// With the context current.
   void draw(AvatarPart part);
@@ -65,11 +68,12 @@ class AvatarBuffers {
   std::vector<Mesh> meshes_;  // by character and level
   std::vector<GpuAvatar> people_;
   std::vector<std::array<glm::vec4, 3>> matrices_;
-  std::vector<DrawCommand> commands_;
+  std::vector<DrawCommand> commands_, throwing_;
   size_t bodyCount_ = 0;
   uint64_t triangles_ = 0, bytes_ = 0;
   bool changed_ = true, made_ = false;
-  GlBuffer vertexBuffer_, indexBuffer_, quad_, quadIndices_, personBuffer_, poseBuffer_, commandBuffer_;
+  GlBuffer vertexBuffer_, indexBuffer_, quad_, quadIndices_, personBuffer_, poseBuffer_, commandBuffer_,
+      throwingBuffer_;
   GLuint bodyArray_ = 0, quadArray_ = 0;
 };
 

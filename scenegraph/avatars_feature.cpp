@@ -43,15 +43,16 @@ DressTable dressTable(const std::vector<city::Character>& characters) {
 
 class Avatars : public Feature {
  public:
-  explicit Avatars(const city::City& city)
+  Avatars(const city::City& city, const SceneParts& parts)
       : Feature("avatars"),
         terrain_(city.terrain && !city.terrain->empty() ? &*city.terrain : nullptr),
         firstItem_(city.itemOfPerson(0)),
-        buffers_(std::make_shared<AvatarBuffers>(city.people.characters)),
+        buffers_(parts.people),
         dresses_(dressTable(city.people.characters)) {
     const std::vector<city::Character>& characters = city.people.characters;
-    const std::vector<std::string> defines = {"DRESSES " + std::to_string(std::max<size_t>(dresses_.count, 1)),
-                                              "CHARACTERS " + std::to_string(characters.size())};
+    std::vector<std::string> defines = {"DRESSES " + std::to_string(std::max<size_t>(dresses_.count, 1)),
+                                        "CHARACTERS " + std::to_string(characters.size())};
+    for (const std::string& define : parts.lightDefines()) defines.push_back(define);
     osg::ref_ptr<osg::UniformBufferObject> block = new osg::UniformBufferObject;
     dresses_.rows->setBufferObject(block);
     node_->getOrCreateStateSet()->setAttribute(new osg::UniformBufferBinding(
@@ -59,8 +60,10 @@ class Avatars : public Feature {
 
     add("bodies", AvatarPart::Bodies, surfaceStates(PassId::Opaque, "avatar.vert", "avatar.frag", defines),
         PassId::Opaque);
-    add("shadows", AvatarPart::Shadows, surfaceStates(PassId::Shadow, "avatar_shadow.vert", "avatar_shadow.frag", {}),
-        PassId::Shadow);
+    ovals_ = parts.cascades == 0;
+    if (ovals_)
+      add("shadows", AvatarPart::Shadows, surfaceStates(PassId::Shadow, "avatar_shadow.vert", "avatar_shadow.frag", {}),
+          PassId::Shadow);
     add("cards", AvatarPart::Cards, cardStates(characters, defines), PassId::CutOut);
     gpuBytes_ += buffers_->bytes() + dresses_.rows->getTotalDataSize();
   }
@@ -99,9 +102,9 @@ class Avatars : public Feature {
     }
     buffers_->show(std::move(people), bodies, plan.avatars.matrices);
     DrawCounts counts;
-    counts.triangles = buffers_->triangles();
+    counts.triangles = buffers_->triangles() + (ovals_ ? 2 * buffers_->bodyCount() : 0);
     counts.indirectCommands = buffers_->commandCount();
-    counts.drawCalls = (buffers_->bodyCount() > 0 ? 2U : 0U) + (buffers_->cardCount() > 0 ? 1U : 0U);
+    counts.drawCalls = (buffers_->bodyCount() > 0 ? (ovals_ ? 2U : 1U) : 0U) + (buffers_->cardCount() > 0 ? 1U : 0U);
     counts.textureBinds = buffers_->cardCount() > 0 ? 1 : 0;
     return counts;
   }
@@ -146,12 +149,13 @@ class Avatars : public Feature {
   std::shared_ptr<AvatarBuffers> buffers_;
   DressTable dresses_;
   std::vector<uint32_t> order_;
+  bool ovals_ = true;  ///< people have soft ovals under them: there are no shadow maps
 };
 
 }  // namespace
 
-std::unique_ptr<Feature> makeAvatars(const city::City& city) {
-  return std::make_unique<Avatars>(city);
+std::unique_ptr<Feature> makeAvatars(const city::City& city, const SceneParts& parts) {
+  return std::make_unique<Avatars>(city, parts);
 }
 
 }  // namespace vicus::scenegraph

@@ -13,6 +13,7 @@
 #include "city/city.hpp"
 #include "city/frame_plan.hpp"
 #include "scenegraph/arena_drawable.hpp"
+#include "scenegraph/avatar_drawable.hpp"
 #include "scenegraph/material_textures.hpp"
 #include "scenegraph/scene.hpp"
 #include "scenegraph/surface_states.hpp"
@@ -27,6 +28,14 @@ struct SceneParts {
   Ordering ordering = Ordering::ByState;
   std::shared_ptr<const houselod::HouseTypes> houses;  ///< null where nothing is ever flat
   osg::ref_ptr<osg::Texture2D> groundMap;              ///< null where the scene has no terrain
+  size_t cascades = 0;                                 ///< shadow maps; 0: none
+  int shadowTexels = 0;                                ///< to a side of each
+  std::shared_ptr<AvatarBuffers> people;               ///< null where the scene shows nobody
+
+  /// What shaders/lit.glsl needs defined.
+  std::vector<std::string> lightDefines() const {
+    return cascades > 0 ? std::vector{"SHADOWS " + std::to_string(cascades)} : std::vector<std::string>();
+  }
 };
 
 /// Content of one kind under one node of the graph.
@@ -40,7 +49,7 @@ class Feature {
   /// Writes the plan into the nodes; says what drawing them costs.
   virtual DrawCounts apply(const city::FramePlan& plan) = 0;
   /// Puts each node's state set of the variant in place; nodes without one are not drawn.
-  void show(Variant variant);
+  virtual void show(Variant variant);
 
   osg::Group* node() const { return node_; }
   const std::string& name() const { return node_->getName(); }
@@ -77,7 +86,9 @@ std::unique_ptr<Feature> makeMonuments(const city::City& city, const SceneParts&
 std::unique_ptr<Feature> makeTerrain(const city::City& city, const SceneParts& parts);
 std::unique_ptr<Feature> makeGround(const city::City& city, const SceneParts& parts);
 /// The city must outlive the feature.
-std::unique_ptr<Feature> makeAvatars(const city::City& city);
+std::unique_ptr<Feature> makeAvatars(const city::City& city, const SceneParts& parts);
+/// `shared` is the root's state set: it gets what all surfaces need to look shadows up.
+std::unique_ptr<Feature> makeShadowMaps(const city::City& city, const SceneParts& parts, osg::StateSet& shared);
 std::unique_ptr<Feature> makeWater(const city::City& city);
 
 /// Metres that one repeat of the ground's detail covers.

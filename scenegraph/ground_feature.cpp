@@ -37,7 +37,8 @@ class Ground : public Feature {
     states->addUniform(detailUv_);
     const glm::vec4 country = countrysideTexel();
     states->addUniform(new osg::Uniform("countryside", osg::Vec4f(country.r, country.g, country.b, country.a)));
-    std::vector<std::string> defines = {"BEYOND"};
+    std::vector<std::string> defines = parts.lightDefines();
+    defines.emplace_back("BEYOND");
     if (parts.groundMap && !followsEye_) defines.emplace_back("GROUND_MAP");
     addSurface(geometry, surfaceStates(PassId::Ground, "ground.vert", "ground.frag", defines), PassId::Ground);
   }

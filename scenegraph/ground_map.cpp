@@ -155,13 +155,15 @@ glm::vec3 normalAt(const city::HeightField& field, const Normals& normals, glm::
 }
 
 /// Light on a pixel over that on open level ground, which the shaders give it.
-glm::vec3 lightOn(const glm::vec3& normal, const GroundShade& shade, const Light& light, size_t pixel) {
+glm::vec3 lightOn(const glm::vec3& normal, const GroundShade& shade, const Light& light, size_t pixel,
+                  bool sunFromMaps) {
   const bool shaded = shade.size > 0;
   const float sunPart = shaded ? static_cast<float>(shade.sun[pixel]) / 255 : 1,
               skyPart = shaded ? static_cast<float>(shade.sky[pixel]) / 255 : 1;
   const glm::vec3 sun = light.sun * std::max(glm::dot(normal, light.sunDirection), 0.0f);
   const glm::vec3 sky = glm::mix(light.bounce, light.sky, 0.5f + 0.5f * normal.z);
-  const glm::vec3 level = light.sun * std::max(light.sunDirection.z, 0.0f) + light.sky;
+  const glm::vec3 level =
+      light.sun * (std::max(light.sunDirection.z, 0.0f) * (sunFromMaps ? sunPart : 1.0f)) + light.sky;
   return (sun * sunPart + sky * skyPart) / level;
 }
 
@@ -173,6 +175,7 @@ struct Painting {
   Normals normals;
   const GroundShade& shade;
   const Light& light;
+  bool sunFromMaps = false;
 };
 
 void paintRow(GroundMap& map, const Painting& from, int row) {
@@ -210,8 +213,8 @@ void paintRow(GroundMap& map, const Painting& from, int row) {
     const float mottled = 1 + 0.28f * (broad - 0.5f) + 0.22f * (fine - 0.5f);
     const float warm = 0.10f * (warmNoise(x) - 0.5f);
     const size_t pixel = static_cast<size_t>(row) * static_cast<size_t>(map.size) + static_cast<size_t>(column);
-    const glm::vec3 albedo =
-        paint.albedo * mottled * glm::vec3(1 + warm, 1, 1 - warm) * lightOn(normal, from.shade, from.light, pixel);
+    const glm::vec3 albedo = paint.albedo * mottled * glm::vec3(1 + warm, 1, 1 - warm) *
+                             lightOn(normal, from.shade, from.light, pixel, from.sunFromMaps);
     uint8_t* out = map.rgba.data() + 4 * pixel;
     for (int k = 0; k < 3; ++k)
       out[k] = static_cast<uint8_t>(255 * std::sqrt(std::clamp(albedo[k], 0.0f, 1.0f)) + 0.5f);
@@ -234,14 +237,14 @@ int groundMapSize(glm::dvec2 extent, int largest) {
 }
 
 GroundMap paintGroundMap(const city::HeightField& field, const city::GroundCover* cover, int size,
-                         const GroundShade& shade, const Light& light) {
+                         const GroundShade& shade, const Light& light, bool sunFromMaps) {
   assert(shade.size == 0 || shade.size == size);
   GroundMap map;
   if (field.empty()) return map;
   if (cover && (cover->size.x < 1 || cover->size.y < 1)) cover = nullptr;
   map.size = size;
   map.rgba.resize(4 * static_cast<size_t>(size) * static_cast<size_t>(size));
-  Painting from{field, cover, {}, normalsOf(field, size), shade, light};
+  Painting from{field, cover, {}, normalsOf(field, size), shade, light, sunFromMaps};
   if (cover) from.plain = plainCells(*cover);
   const auto paintRows = [&](int first, int stride) {
     for (int row = first; row < size; row += stride) paintRow(map, from, row);

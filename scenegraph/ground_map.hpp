@@ -31,7 +31,9 @@ int groundMapSize(glm::dvec2 extent, int largest);
 /// steep; lit by `light` as the field's own slopes are; darker where `shade` (of the same size, or of size 0) keeps sun
 /// and sky away. Without cover: grass
 /// and meadows. Deterministic, rows in parallel.
+/// `sunFromMaps`: the sun is kept away by shadow maps where the map is drawn, not by the map itself: it then holds what
+/// sky and slope change of the light that is left.
 GroundMap paintGroundMap(const city::HeightField& field, const city::GroundCover* cover, int size,
-                         const GroundShade& shade, const Light& light);
+                         const GroundShade& shade, const Light& light, bool sunFromMaps = false);
 
 }  // namespace vicus::scenegraph

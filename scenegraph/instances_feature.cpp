@@ -50,6 +50,7 @@ class Instances : public Feature {
     std::vector<std::string> defines = parts.textures->defines;
     if (!isTrees_) defines.emplace_back("SLIDES");
     if (!isTrees_ && parts.textures->pages > 0) defines.emplace_back("PICTURES");
+    for (const std::string& define : parts.lightDefines()) defines.push_back(define);
     std::vector<std::string> withHoles = defines;
     withHoles.emplace_back("CUT_OUT");
     std::vector<std::pair<ArenaPart, SurfaceStates>> looks;

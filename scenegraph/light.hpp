@@ -18,8 +18,8 @@ struct Light {
   float hazeDensity;                ///< 1 / metres
 };
 
-/// Light of a clear day with the sun where `environment` puts it: warmer and weaker when low, none from below the
-/// horizon. Values that are not finite give those of a default Environment.
+/// Light of a clear day with the sun where `environment` puts it: warmer and weaker when low; dusk and a blue night
+/// when it is down. Values that are not finite give those of a default Environment.
 Light lightOf(const city::Environment& environment);
 
 }  // namespace vicus::scenegraph

@@ -43,6 +43,7 @@ constexpr unsigned kGroundDetailUnit = 5;
 constexpr unsigned kRippleUnit = 6;
 constexpr unsigned kCloudUnit = 7;
 constexpr unsigned kAvatarUnit = 8;
+constexpr unsigned kShadowUnit = 9;
 
 /// Mip levels of one layer after the other.
 using LayerLevels = std::vector<std::vector<uint8_t>>;

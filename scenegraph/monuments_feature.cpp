@@ -91,6 +91,7 @@ class Monuments : public Feature {
       const PassId pass = cutOut ? PassId::CutOut : PassId::Opaque;
       if (!states.of(Variant::Colour)) {
         std::vector<std::string> defines = parts.textures->defines;
+        for (const std::string& define : parts.lightDefines()) defines.push_back(define);
         if (cutOut) defines.emplace_back("CUT_OUT");
         states = surfaceStates(pass, "monument.vert", "surface.frag", defines);
       }

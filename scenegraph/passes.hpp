@@ -7,7 +7,7 @@
 
 namespace vicus::scenegraph {
 
-enum class PassId : uint8_t { Opaque, Ground, Shadow, CutOut, Sky, Water };
+enum class PassId : uint8_t { ShadowMaps, Opaque, Ground, Shadow, CutOut, Sky, Water };
 
 /// A pass exists only where the scene has something to draw in it.
 struct Pass {
@@ -19,10 +19,13 @@ struct Pass {
 };
 
 constexpr std::array kPasses = {
+    // Into maps of their own, before the picture; a map is drawn again only when what is in it has changed.
+    Pass{PassId::ShadowMaps, "shadow maps", -1, "shadows.cascades, and something that stands in the sun", false},
     Pass{PassId::Opaque, "opaque", 0, "buildings, trees, monuments or people", true},
     // Ground after what stands on it: most of it is hidden and costs nothing then.
     Pass{PassId::Ground, "ground", 1, "terrain or anything that stands on the ground", true},
-    // On the ground alone: what stands there is drawn, and what is see-through is not yet.
+    // Ovals under people where there are no shadow maps. On the ground alone: what stands there is drawn, and what is
+    // see-through is not yet.
     Pass{PassId::Shadow, "shadows", 2, "people", false},
     // Separate, because a shader that discards takes the early depth test from all that it draws.
     Pass{PassId::CutOut, "cut-out", 3, "a material whose picture has holes, or people", true},

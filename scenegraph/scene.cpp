@@ -16,6 +16,7 @@
 #include <osg/Texture2D>
 #include <sstream>
 
+#include "plan/shadows.hpp"
 #include "scenegraph/features.hpp"
 #include "scenegraph/glm_osg.hpp"
 #include "scenegraph/ground_map.hpp"
@@ -37,13 +38,18 @@ constexpr city::Knob kKnobs[] = {
      "streets without edges", "a slower start and four bytes for each pixel"},
 };
 
+/// How many shadow maps the plans of this city come with.
+size_t cascadesOf(const city::City& city, const city::Knobs& knobs) {
+  return knobs.has("shadows.cascades") ? plan::cascadeCount(city, knobs) : 0;
+}
+
 /// The picture over the terrain, null where there is none.
-osg::ref_ptr<osg::Texture2D> groundMapTexture(const city::City& city, int largest) {
+osg::ref_ptr<osg::Texture2D> groundMapTexture(const city::City& city, int largest, bool sunFromMaps) {
   if (!city.terrain || city.terrain->empty()) return nullptr;
   const Light light = lightOf(city.environment);
   const int size = groundMapSize(city.terrain->extent(), largest);
   const GroundMap map = paintGroundMap(*city.terrain, city.groundCover ? &*city.groundCover : nullptr, size,
-                                       shadeGround(city, light.sunDirection, size), light);
+                                       shadeGround(city, light.sunDirection, size), light, sunFromMaps);
   osg::ref_ptr<osg::Image> image = new osg::Image;
   image->allocateImage(map.size, map.size, 1, GL_RGBA, GL_UNSIGNED_BYTE);
   std::copy(map.rgba.begin(), map.rgba.end(), image->data());
@@ -215,23 +221,29 @@ Scene::Scene(const city::City& city, const city::Knobs& knobs, city::Diagnostics
   parts.tiles = s.tiles;
   parts.textures = textures;
   parts.ordering = knobs.on("state_ordering") ? Ordering::ByState : Ordering::Scene;
-  parts.groundMap = groundMapTexture(city, static_cast<int>(knobs["ground.map_size"]));
+  parts.cascades = cascadesOf(city, knobs);
+  if (parts.cascades > 0) parts.shadowTexels = static_cast<int>(knobs["shadows.size"]);
+  parts.groundMap = groundMapTexture(city, static_cast<int>(knobs["ground.map_size"]), parts.cascades > 0);
+
+  if (!city.people.empty() && knobs.on("avatars.shown"))
+    parts.people = std::make_shared<AvatarBuffers>(city.people.characters);
 
   // The scene's one composition: what the city has, in the order of the passes.
   const bool hasTerrain = city.terrain && !city.terrain->empty();
   if (!city.buildings.empty()) s.features.push_back(makeBuildings(city, parts));
   if (!city.monuments.empty()) s.features.push_back(makeMonuments(city, parts));
   if (!city.trees.empty()) s.features.push_back(makeTrees(city, parts));
-  if (!city.people.empty() && knobs.on("avatars.shown")) s.features.push_back(makeAvatars(city));
+  if (parts.people) s.features.push_back(makeAvatars(city, parts));
   if (hasTerrain) s.features.push_back(makeTerrain(city, parts));
   s.features.push_back(makeGround(city, parts));
   s.features.push_back(makeSky());
   if (!city.water.empty()) s.features.push_back(makeWater(city));
+  osg::StateSet& states = *s.root->getOrCreateStateSet();
+  if (parts.cascades > 0) s.features.push_back(makeShadowMaps(city, parts, states));
   for (const auto& feature : s.features) s.root->addChild(feature->node());
   for (const auto& feature : s.features) s.applyNames.push_back("apply " + feature->name());
   for (const std::string& name : s.applyNames) s.applyTimes.push_back({name, 0});
 
-  osg::StateSet& states = *s.root->getOrCreateStateSet();
   states.setAttributeAndModes(new osg::Depth(osg::Depth::GREATER, 0, 1, true));
   states.setAttributeAndModes(new osg::CullFace(osg::CullFace::BACK));
   states.setAttributeAndModes(new osg::ClipControl(osg::ClipControl::LOWER_LEFT, osg::ClipControl::ZERO_TO_ONE));

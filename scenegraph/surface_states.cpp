@@ -10,6 +10,16 @@
 
 namespace vicus::scenegraph {
 
+osg::ref_ptr<osg::Program> programOf(std::string_view vertexFile, std::string_view fragmentFile,
+                                     std::vector<std::string> defines) {
+  osg::ref_ptr<osg::Program> program = new osg::Program;
+  program->setName(std::string(vertexFile) + " + " + std::string(fragmentFile));
+  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, assets::shaderSource(fragmentFile, defines)));
+  defines.emplace_back("VERTEX");
+  program->addShader(new osg::Shader(osg::Shader::VERTEX, assets::shaderSource(vertexFile, defines)));
+  return program;
+}
+
 SurfaceStates surfaceStates(PassId id, std::string_view vertexFile, std::string_view fragmentFile,
                             std::vector<std::string> defines) {
   const Pass& thePass = pass(id);
@@ -17,15 +27,10 @@ SurfaceStates surfaceStates(PassId id, std::string_view vertexFile, std::string_
   for (const Variant variant : {Variant::Colour, Variant::ItemId}) {
     if (variant == Variant::ItemId && !thePass.items) continue;
     if (variant == Variant::ItemId) defines.emplace_back("ITEM_ID");
-    osg::ref_ptr<osg::Program> program = new osg::Program;
-    program->setName(std::string(vertexFile) + " + " + std::string(fragmentFile));
-    program->addShader(new osg::Shader(osg::Shader::VERTEX, assets::shaderSource(vertexFile, defines)));
-    program->addShader(new osg::Shader(osg::Shader::FRAGMENT, assets::shaderSource(fragmentFile, defines)));
-
     osg::ref_ptr<osg::StateSet> set = new osg::StateSet;
     set->setName(std::string(thePass.name) + (variant == Variant::ItemId ? " items" : ""));
     set->setRenderBinDetails(thePass.bin, "RenderBin");
-    set->setAttributeAndModes(program);
+    set->setAttributeAndModes(programOf(vertexFile, fragmentFile, defines));
     if (id == PassId::CutOut) {
       set->setAttributeAndModes(new osg::CullFace(osg::CullFace::BACK), osg::StateAttribute::OFF);
       if (variant == Variant::Colour) set->setMode(GL_SAMPLE_ALPHA_TO_COVERAGE, osg::StateAttribute::ON);

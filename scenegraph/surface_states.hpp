@@ -5,6 +5,7 @@
 
 #include <array>
 #include <osg/Geometry>
+#include <osg/Program>
 #include <osg/StateSet>
 #include <osg/ref_ptr>
 #include <string>
@@ -22,6 +23,10 @@ struct SurfaceStates {
 
   osg::StateSet* of(Variant variant) const { return variants[static_cast<size_t>(variant)]; }
 };
+
+/// A program from two files of assets/shaders; the vertex shader has VERTEX defined besides.
+osg::ref_ptr<osg::Program> programOf(std::string_view vertexFile, std::string_view fragmentFile,
+                                     std::vector<std::string> defines);
 
 /// Programs from assets/shaders with `defines`, and with ITEM_ID besides for item buffers (none where the pass is not
 /// drawn into them), in the render bin of `pass`.

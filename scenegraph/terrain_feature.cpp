@@ -194,12 +194,16 @@ class Terrain : public Feature {
   }
 
  private:
+  std::vector<std::string> defines(std::vector<std::string> own) const {
+    for (const std::string& define : parts_.lightDefines()) own.push_back(define);
+    return own;
+  }
   void makeRoam() {
     roam_ = new RoamDrawable(city_.terrain->size);
     roam_->setName("terrain/ROAM mesh");
     node_->addChild(roam_);
     samplesFromEye_.emplace(*city_.terrain, *node_->getOrCreateStateSet());
-    addSurface(roam_, surfaceStates(PassId::Ground, "terrain.vert", "ground.frag", {"GROUND_MAP", "ROAM"}),
+    addSurface(roam_, surfaceStates(PassId::Ground, "terrain.vert", "ground.frag", defines({"GROUND_MAP", "ROAM"})),
                PassId::Ground);
   }
   void makePatches() {
@@ -217,7 +221,8 @@ class Terrain : public Feature {
     patches_->setName("terrain/patches at full detail");
     patches_->setMap(parts_.groundMap);
     node_->addChild(patches_);
-    addSurface(patches_, surfaceStates(PassId::Ground, "terrain.vert", "ground.frag", {"GROUND_MAP"}), PassId::Ground);
+    addSurface(patches_, surfaceStates(PassId::Ground, "terrain.vert", "ground.frag", defines({"GROUND_MAP"})),
+               PassId::Ground);
   }
 
   const city::City& city_;

@@ -11,6 +11,7 @@ import sys
 FLOORS = {
     "city": 0,
     "culling": 1, "terrain": 1, "houselod": 1, "facade": 1, "blockmap": 1, "avatars": 1, "streaming": 1, "walking": 1,
+    "light": 1,
     "plan": 2, "assets": 2,
     "scenegraph": 3,
     "viewer": 4,

@@ -145,6 +145,8 @@ struct Renderer::Impl {
     report(problem);
     if (!problem.empty()) return false;
     glBindFramebuffer(GL_FRAMEBUFFER, target.name());
+    // Where OpenSceneGraph goes back to after it has drawn into textures.
+    window->setDefaultFboId(target.name());
     glDisable(GL_SCISSOR_TEST);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthMask(GL_TRUE);

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "assets/norvic/trees.hpp"
+#include "light/sun_position.hpp"
 
 namespace vicus::assets::norvic {
 
@@ -37,6 +38,12 @@ city::Instance standTree(const TreeSpot& tree, const city::HeightField& terrain)
   out.geometry = treeType(static_cast<TreeKind>(tree.kind), tree.seed / 6283U);
   out.seed = tree.seed;
   return out;
+}
+
+void setSummerAfternoon(city::Environment& environment) {
+  const double utc = light::utcOfSolarTime(light::daysOf(1390, 8, 24) + 14.5 / 24, light::kNorwich.longitude);
+  if (const auto sun = light::sunAt(utc, light::kNorwich.latitude, light::kNorwich.longitude))
+    environment.sunAzimuth = sun->azimuth, environment.sunElevation = sun->elevation;
 }
 
 city::StreetGraph joinStreets(std::span<const QuarterPlan> quarters, const Landscape& land,

@@ -339,8 +339,7 @@ City assemble(const Layout& layout, const Landscape& land, HouseCatalogue houses
   out.buildingTypes = std::move(houses.geometry);
   out.streets = joinStreets(plans, land, *out.terrain);
   addMonuments(out, land, plans);
-  out.environment.sunAzimuth = 3.75;
-  out.environment.sunElevation = 0.72;
+  setSummerAfternoon(out.environment);
   out.environment.hazeDistance = 9000;
   out.tours = makeTours(out, stopsOf(layout.quarters.front(), plans.front(), land));
   say("sorting into tiles", 0);

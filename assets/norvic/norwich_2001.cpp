@@ -153,8 +153,7 @@ city::City generateNorwich2001(uint32_t seed, const Progress& progress) {
   for (const TreeSpot& t : plan.trees) parts.trees.push_back(standTree(t, *out.terrain));
   out.buildingTypes = std::move(houses.geometry);
   out.streets = joinStreets({&plan, 1}, land, *out.terrain);
-  out.environment.sunAzimuth = 3.75;
-  out.environment.sunElevation = 0.72;
+  setSummerAfternoon(out.environment);
   out.environment.hazeDistance = 9000;
 
   // From the sparse west through the dense middle to the sparse north-east.

@@ -9,6 +9,7 @@
 #include "assets/people/read_bvh.hpp"
 #include "assets/people/read_character.hpp"
 #include "assets/people/townspeople.hpp"
+#include "light/sun_position.hpp"
 
 namespace vicus::assets {
 namespace {
@@ -28,6 +29,20 @@ std::optional<glm::dvec3> localOf(const ScenePlace& place, const city::City& cit
   double z = place.altitude ? *place.altitude + shift.z - city.origin.z : place.aboveGround;
   if (!place.altitude && city.terrain) z += city.terrain->heightAt(p[0].x, p[0].y).value_or(0);
   return glm::dvec3(p[0], z);
+}
+
+/// The scene's angles of the sun, else its date in its place, else as the city has it.
+void applyLight(city::City& city, const SceneEnvironment& from, glm::dvec3 shift) {
+  city::Environment& out = city.environment;
+  if (from.sunAzimuth) out.sunAzimuth = *from.sunAzimuth;
+  if (from.sunElevation) out.sunElevation = *from.sunElevation;
+  if (from.hazeDistance) out.hazeDistance = *from.hazeDistance;
+  if (!from.days) return;
+  const light::Place place = from.lonlat ? light::Place{from.lonlat->y, from.lonlat->x} : placeOf(city, shift);
+  const double utc =
+      from.utcOffset ? *from.days - *from.utcOffset / 24 : light::utcOfSolarTime(*from.days, place.longitude);
+  if (const auto sun = light::sunAt(utc, place.latitude, place.longitude))
+    out.sunAzimuth = sun->azimuth, out.sunElevation = sun->elevation;
 }
 
 /// Who walks in the city: characters of files, else people made by code, in the walks of the motions.
@@ -58,6 +73,15 @@ void addPeople(city::City& city, const SceneDescription& scene, city::Diagnostic
 
 }  // namespace
 
+light::Place placeOf(const city::City& city, glm::dvec3 shift) {
+  const std::string crs = city.crs.empty() ? std::string() : crsFromText(city.crs);
+  if (crs.empty() || city.extent.empty()) return light::kNorwich;
+  glm::dvec2 p[] = {glm::dvec2(city.extent.centre()) + glm::dvec2(city.origin) - glm::dvec2(shift)};
+  const auto failed = transform(crs, crsFromText("EPSG:4326"), p);
+  if (!failed || *failed > 0 || !(std::abs(p[0].y) <= 90)) return light::kNorwich;
+  return {glm::radians(p[0].y), glm::radians(p[0].x)};
+}
+
 void applyScene(city::City& city, const SceneDescription& scene, glm::dvec3 shift, city::Diagnostics& diagnostics) {
   const std::string sceneCrs = scene.crs.empty() ? std::string() : crsFromText(scene.crs),
                     cityCrs = crsFromText(city.crs);
@@ -74,10 +98,7 @@ void applyScene(city::City& city, const SceneDescription& scene, glm::dvec3 shif
     }
     if (out.keys.empty()) city.tours.pop_back();
   }
-  const SceneEnvironment& light = scene.environment;
-  if (light.sunAzimuth) city.environment.sunAzimuth = *light.sunAzimuth;
-  if (light.sunElevation) city.environment.sunElevation = *light.sunElevation;
-  if (light.hazeDistance) city.environment.hazeDistance = *light.hazeDistance;
+  applyLight(city, scene.environment, shift);
   addPeople(city, scene, diagnostics);
 }
 

@@ -7,6 +7,7 @@
 
 #include "assets/scene/scene_description.hpp"
 #include "assets/scene/suggest.hpp"
+#include "light/sun_position.hpp"
 
 namespace vicus::assets {
 namespace {
@@ -300,6 +301,28 @@ void readKnobs(const toml::table& table, const std::string& prefix, int depth, s
   }
 }
 
+/// The sun by date: TOML's own dates and times.
+void readMoment(Table& t, SceneEnvironment& environment) {
+  const toml::node *date = t.find("date"), *time = t.find("time");
+  double xy[2] = {0, 0};
+  if (t.numbers("lonlat", xy, 2)) {
+    environment.lonlat = {radians(xy[0]), radians(xy[1])};
+    if (!(std::abs(xy[0]) <= 180 && std::abs(xy[1]) <= 90))
+      t.errors().say(*t.find("lonlat"), "lonlat is longitude (-180 to 180), then latitude (-90 to 90)");
+  }
+  environment.utcOffset = t.number("utc_offset", -14, 14);
+  if (date && !date->as_date()) t.wrong(*date, "date", "a date like 1390-08-24, without quotes");
+  if (time && !time->as_time()) t.wrong(*time, "time", "a time like 14:30:00, without quotes");
+  if (!date && !time) return;
+  if (environment.sunAzimuth || environment.sunElevation)
+    t.errors().say(date ? *date : *time, "the sun stands by its angles or by a date and time: one is enough");
+  if (!date) return t.errors().say(*time, "a time needs a date");
+  const toml::date day = date->value<toml::date>().value_or(toml::date{});
+  const toml::time hour = time ? time->value<toml::time>().value_or(toml::time{}) : toml::time{12, 0};
+  environment.days =
+      light::daysOf(day.year, day.month, day.day) + (hour.hour + (hour.minute + hour.second / 60.0) / 60) / 24;
+}
+
 void readRoot(Table& root, SceneDescription& scene) {
   root.text("name", scene.name);
   root.text("crs", scene.crs);
@@ -356,6 +379,7 @@ void readRoot(Table& root, SceneDescription& scene) {
     if (const auto v = t.number("sun_azimuth", -360, 360)) scene.environment.sunAzimuth = radians(*v);
     if (const auto v = t.number("sun_elevation", -90, 90)) scene.environment.sunElevation = radians(*v);
     scene.environment.hazeDistance = t.number("haze_distance", 10, 1e6);
+    readMoment(t, scene.environment);
   });
 }
 

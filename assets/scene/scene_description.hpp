@@ -75,7 +75,12 @@ struct SceneAvatars {
 
 struct SceneEnvironment {
   std::optional<double> sunAzimuth, sunElevation;  ///< radians
-  std::optional<double> hazeDistance;              ///< metres
+  /// The sun by date and time in their place: days since 2000-01-01 00:00, in local mean solar time, or where
+  /// `utcOffset` (hours) is there in a clock's time.
+  std::optional<double> days;
+  std::optional<double> utcOffset;
+  std::optional<glm::dvec2> lonlat;    ///< radians; else where the city's CRS puts it
+  std::optional<double> hazeDistance;  ///< metres
 };
 
 struct SceneDescription {

@@ -1,5 +1,7 @@
 // People: one vertex of one body, posed by the matrices of its joints.
-#include "lighting.glsl"
+#ifndef ITEM_ID
+#include "lit.glsl"
+#endif
 
 layout(location = 0) in vec3 vertexPosition;  // metres in the character's frame at rest
 layout(location = 1) in vec2 vertexNormal;    // octahedral
@@ -20,9 +22,6 @@ uniform mat4 clipFromEyeRelative;
 
 #ifdef ITEM_ID
 flat out uint item;
-#else
-out vec3 scale;
-out vec3 add;
 #endif
 
 vec3 fromOctahedral(vec2 e) {
@@ -56,7 +55,6 @@ void main() {
   vec3 own = vec3(vertexColour.rgb) / 255.0;
   Seen s = seen(fromEye, normal, own * own * dresses[8u * person.y + vertexColour.a].rgb, 0.0);
   // Darker towards the feet, where the ground hides the sky.
-  scale = s.scale * (1.0 - 0.3 * clamp(1.0 - posed.z, 0.0, 1.0));
-  add = s.add;
+  show(s, fromEye, 1.0 - 0.3 * clamp(1.0 - posed.z, 0.0, 1.0));
 #endif
 }

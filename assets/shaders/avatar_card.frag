@@ -14,6 +14,7 @@ void main() {
 #else
 #include "lighting.glsl"
 #include "dresses.glsl"
+#include "shadow.glsl"
 flat in vec2 toEye;
 flat in vec3 clear;
 flat in vec3 add;
@@ -26,6 +27,11 @@ void main() {
   // Lit like a pillar.
   vec3 normal = vec3(across * vec2(-toEye.y, toEye.x) + sqrt(max(1.0 - across * across, 0.0)) * toEye, 0.0);
   vec3 albedo = t.rgb * t.rgb * dresses[8u * dressAndLayer.x + part].rgb;
-  shown = vec4(displayed(albedo * lightOn(normal) * clear + add), 1.0);
+#ifdef SHADOWS
+  vec3 light = skyOn(normal) + sun * (max(dot(normal, sunDirection), 0.0) * sunlit());
+#else
+  vec3 light = lightOn(normal);
+#endif
+  shown = vec4(displayed(albedo * light * clear + add), 1.0);
 }
 #endif

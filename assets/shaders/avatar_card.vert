@@ -18,6 +18,11 @@ flat out uint item;
 flat out vec2 toEye;
 flat out vec3 clear;
 flat out vec3 add;
+#ifdef SHADOWS
+uniform mat3 lightFromWorld;
+out vec3 sun;
+out vec3 inLight;
+#endif
 #endif
 
 void main() {
@@ -39,5 +44,9 @@ void main() {
   Seen s = seen(fromEye, vec3(eye, 0.0), vec3(1.0), 0.0);
   clear = vec3(1.0 - hazeAt(length(fromEye)));
   add = s.add;
+#ifdef SHADOWS
+  sun = sunLight;
+  inLight = lightFromWorld * (fromEye + vec3(0.3 * eye, 0.0));
+#endif
 #endif
 }

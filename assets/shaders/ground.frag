@@ -8,7 +8,7 @@ void main() {
   shownItem = item;
 }
 #else
-#include "lighting.glsl"
+#include "lit.glsl"
 #ifdef GROUND_MAP
 uniform sampler2D groundMap;  // square root of linear colour; alpha: 0 grass, 0.5 earth, 1 stones
 in vec2 mapUv;
@@ -19,8 +19,6 @@ in vec2 detailUv;
 uniform vec4 countryside;  // as a texel of the ground map
 in float beyond;
 #endif
-in vec3 scale;
-in vec3 add;
 layout(location = 0) out vec4 shown;
 
 void main() {
@@ -32,6 +30,6 @@ void main() {
   vec4 ground = countryside;
 #endif
   vec3 colour = ground.rgb * (2.0 * texture(groundDetail, vec3(detailUv, floor(2.0 * ground.a + 0.5))).rgb);
-  shown = vec4(displayed(colour * colour * scale + add), 1.0);
+  shown = vec4(displayed(lit(colour * colour, 1.0)), 1.0);
 }
 #endif

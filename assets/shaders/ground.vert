@@ -10,14 +10,12 @@ uniform mat4 clipFromEyeRelative;
 #ifdef ITEM_ID
 flat out uint item;
 #else
-#include "lighting.glsl"
+#include "lit.glsl"
 uniform float detailRepeats;
 uniform vec2 groundDetailUv;  // at the mesh's centre
 out vec2 mapUv;
 out vec2 detailUv;
 out float beyond;
-out vec3 scale;
-out vec3 add;
 #endif
 
 void main() {
@@ -30,7 +28,6 @@ void main() {
   detailUv = groundDetailUv + vertexPosition.xy * detailRepeats;
   beyond = vertexBeyond;
   Seen s = seen(fromEye, vec3(0.0, 0.0, 1.0), vec3(1.0), 0.0);
-  scale = s.scale;
-  add = s.add;
+  show(s, fromEye, 1.0);
 #endif
 }

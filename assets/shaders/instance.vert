@@ -1,7 +1,9 @@
 // Buildings and trees: one vertex of one instance, placed by the instance and tile tables.
 #include "vertex.glsl"
 #include "materials.glsl"
-#include "lighting.glsl"
+#ifndef ITEM_ID
+#include "lit.glsl"
+#endif
 
 // One for each instance, by the draw's base instance: an attribute, because software GL fetches those much faster than it
 // reads storage blocks (GpuInstance in scenegraph/arena_drawable.hpp).
@@ -31,8 +33,6 @@ flat out vec2 place;
 #else
 out vec2 uv;
 flat out vec2 place;
-out vec3 scale;
-out vec3 add;
 out float heightAboveGround;
 #ifdef PICTURES
 out vec4 gloss;
@@ -84,8 +84,7 @@ void main() {
 #else
   Seen s = seen(fromEye, normal, tintOf(material.tint, seedAndItem.x, shifted), material.gloss.x);
 #endif
-  scale = s.scale;
-  add = s.add;
+  show(s, fromEye, 1.0);
   heightAboveGround = vertexPosition.z + 4.0 * abs(n.z);
 #endif
 }

@@ -40,9 +40,21 @@ vec3 lightOn(vec3 normal) {
   return sunLight * max(dot(normal, sunDirection), 0.0) + mix(bounceLight, skyLight, up);
 }
 
-// How a surface is seen: shown = albedo * scale + add.
+// Its two parts: what the sun brings where it shines, and what comes from sky and ground.
+vec3 sunOn(vec3 normal) {
+  return sunLight * max(dot(normal, sunDirection), 0.0);
+}
+vec3 skyOn(vec3 normal) {
+  return mix(bounceLight, skyLight, 0.5 + 0.5 * normal.z);
+}
+
+// How a surface is seen: shown = albedo * (scale + sun where it shines) + add. Without shadow maps the sun is in the
+// scale.
 struct Seen {
   vec3 scale;
+#ifdef SHADOWS
+  vec3 sun;
+#endif
   vec3 add;
 };
 
@@ -60,7 +72,13 @@ Seen seen(vec3 fromEye, vec3 normal, vec3 tint, float specular) {
                     clamp(0.5 + 2.0 * bounced.z, 0.0, 1.0));
   float clear = 1.0 - haze;
   Seen result;
+#ifdef SHADOWS
+  vec3 through = tint * ((1.0 - mirrored) * clear);
+  result.scale = skyOn(normal) * through;
+  result.sun = sunOn(normal) * through;
+#else
   result.scale = lightOn(normal) * tint * ((1.0 - mirrored) * clear);
+#endif
   result.add = horizonToward(direction) * haze + mirror * (mirrored * clear);
   return result;
 }

@@ -1,7 +1,9 @@
 // Monuments: ordinary geometry under OpenSceneGraph's transforms, multiplied in double with the eye's.
 #include "vertex.glsl"
 #include "materials.glsl"
-#include "lighting.glsl"
+#ifndef ITEM_ID
+#include "lit.glsl"
+#endif
 
 uniform mat4 osg_ModelViewMatrix;
 uniform mat4 osg_ProjectionMatrix;
@@ -17,8 +19,6 @@ flat out vec2 place;
 #else
 out vec2 uv;
 flat out vec2 place;
-out vec3 scale;
-out vec3 add;
 out float heightAboveGround;
 #endif
 
@@ -38,9 +38,9 @@ void main() {
   place = material.repeatsAndPlace.zw;
   vec3 n = fromOctahedral(vertexNormal);
   vec3 normal = worldFromEye * (mat3(osg_ModelViewMatrix) * n);
-  Seen s = seen(worldFromEye * inEyeAxes.xyz, normal, material.tint.rgb, material.gloss.x);
-  scale = s.scale;
-  add = s.add;
+  vec3 fromEye = worldFromEye * inEyeAxes.xyz;
+  Seen s = seen(fromEye, normal, material.tint.rgb, material.gloss.x);
+  show(s, fromEye, 1.0);
   heightAboveGround = vertexPosition.z + 4.0 * abs(n.z);
 #endif
 }

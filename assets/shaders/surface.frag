@@ -60,9 +60,7 @@ void main() {
   shownItem = item;
 }
 #else
-#include "lighting.glsl"
-in vec3 scale;
-in vec3 add;
+#include "lit.glsl"
 in float heightAboveGround;
 #ifdef PICTURES
 in vec4 gloss;  // what full gloss adds, and the share of the light that it takes; the picture's alpha is its gloss
@@ -83,9 +81,9 @@ void main() {
   // Walls are darker near the ground, where the ground and what stands on it hide the sky.
   float open = 1.0 - 0.35 * clamp(1.0 - 0.4 * heightAboveGround, 0.0, 1.0);
 #ifdef PICTURES
-  shown = vec4(displayed(t.rgb * t.rgb * (scale * (open * (1.0 - gloss.a * t.a))) + add + gloss.rgb * t.a), cover);
+  shown = vec4(displayed(lit(t.rgb * t.rgb * (1.0 - gloss.a * t.a), open) + gloss.rgb * t.a), cover);
 #else
-  shown = vec4(displayed(t.rgb * t.rgb * (scale * open) + add), cover);
+  shown = vec4(displayed(lit(t.rgb * t.rgb, open)), cover);
 #endif
 }
 #endif

@@ -22,12 +22,10 @@ uniform mat4 clipFromEyeRelative;
 #ifdef ITEM_ID
 flat out uint item;
 #else
-#include "lighting.glsl"
+#include "lit.glsl"
 uniform float detailRepeats;
 out vec2 mapUv;
 out vec2 detailUv;
-out vec3 scale;
-out vec3 add;
 #endif
 
 void main() {
@@ -50,7 +48,6 @@ void main() {
   detailUv = patchUv.zw + vertexPosition.xy * detailRepeats;
 #endif
   Seen s = seen(fromEye, vec3(0.0, 0.0, 1.0), vec3(1.0), 0.0);
-  scale = s.scale;
-  add = s.add;
+  show(s, fromEye, 1.0);
 #endif
 }

@@ -22,6 +22,6 @@ void main() {
 #else
   fromEye = worldFromEye * inEyeAxes.xyz;
   // Two layers of ripples of different size that drift across each other.
-  ripplesUv = vec4(vertexPosition.xy / 3.7 + vec2(0.031, 0.017) * time, vertexPosition.yx / 11.3 - vec2(0.013, 0.009) * time);
+  ripplesUv = vec4(vertexPosition.xy / 3.7 + vec2(112.0, 61.0) / 3600.0 * time, vertexPosition.yx / 11.3 - vec2(47.0, 32.0) / 3600.0 * time);
 #endif
 }

@@ -170,6 +170,38 @@ sun_elevation = 30
   EXPECT_EQ(r.settings[0].text, "viewer.fov=50");
 }
 
+TEST(SceneDescription, TheSunByDateStandsWhereItDoesInTheCitysPlace) {
+  const TemporaryFolder folder;
+  folder.write("houses.geojson", houses());
+  const auto sunOf = [&](const std::string& environment) {
+    const std::string file = folder.write(
+        "town.toml", "crs = \"EPSG:2154\"\n[[sources]]\nfile = \"houses.geojson\"\n[environment]\n" + environment);
+    LoadResult r = load(file);
+    EXPECT_TRUE(r.city) << messagesOf(r.diagnostics);
+    return r.city ? r.city->environment : city::Environment{};
+  };
+  // (700 000, 6 600 000) in Lambert-93 is 3° E 46.5° N.
+  const city::Environment summer = sunOf("date = 2024-06-20\ntime = 12:00:00");
+  EXPECT_NEAR(glm::degrees(summer.sunElevation), 90 - 46.5 + 23.44, 0.1);
+  EXPECT_NEAR(glm::degrees(summer.sunAzimuth), 180, 2);
+  // Its mean solar noon is twelve minutes before UTC's.
+  const city::Environment clock = sunOf("date = 2024-06-20\ntime = 13:48:00\nutc_offset = 2");
+  EXPECT_NEAR(clock.sunAzimuth, summer.sunAzimuth, 1e-3);
+  const city::Environment south = sunOf("date = 2024-06-20\nlonlat = [3, -46.5]");
+  EXPECT_NEAR(glm::degrees(south.sunElevation), 90 - 46.5 - 23.44, 0.1);
+  EXPECT_NEAR(std::remainder(glm::degrees(south.sunAzimuth), 360.0), 0, 2);
+}
+
+TEST(SceneDescription, DatesThatAreNoneAreToldWithTheirPlace) {
+  EXPECT_THAT(complaints("[environment]\ndate = \"1390-08-24\""),
+              HasSubstr("line 2, column 8: date is a date like 1390-08-24, without quotes, not string"));
+  EXPECT_THAT(complaints("[environment]\ndate = 2024-01-01\ntime = 14"), HasSubstr("time is a time like 14:30:00"));
+  EXPECT_THAT(complaints("[environment]\ntime = 14:30:00"), HasSubstr("line 2, column 8: a time needs a date"));
+  EXPECT_THAT(complaints("[environment]\ndate = 2024-01-01\nsun_elevation = 5"), HasSubstr("one is enough"));
+  EXPECT_THAT(complaints("[environment]\ndate = 2024-01-01\nlonlat = [0, 91]"), HasSubstr("longitude (-180 to 180)"));
+  EXPECT_THAT(complaints("[environment]\ndate = 2024-02-31"), HasSubstr("line 2"));
+}
+
 TEST(SceneDescription, FilesAreFoundBesideItOrInTheDataFolder) {
   const TemporaryFolder folder;
   std::filesystem::create_directories(folder.path() / "data");
