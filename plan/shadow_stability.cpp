@@ -71,6 +71,7 @@ std::vector<city::StabilityRow> shadowStability() {
   // The maps.
   city::Knobs knobs;
   knobs.declare(planKnobs());
+  knobs.set("shadows.cascades", 4);
   city::City city = oneHouse({0, 0, 0});
   const auto with = [&](double azimuth, double elevation) {
     city.environment.sunAzimuth = azimuth * kDegree, city.environment.sunElevation = elevation * kDegree;

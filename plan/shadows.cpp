@@ -10,8 +10,8 @@ namespace vicus::plan {
 namespace {
 
 constexpr city::Knob kKnobs[] = {
-    {"shadows.cascades", 4, 0, kMostCascades, "maps",
-     "Shadow maps about the eye, each of a larger square than the one before; 0 turns shadow maps off.",
+    {"shadows.cascades", 0, 0, kMostCascades, "maps",
+     "Shadow maps about the eye, each of a larger square than the one before: 4 with a graphics card. 0: none.",
      "0: shadows only where they are painted onto the ground", "more memory, and more to draw where the eye moves"},
     {"shadows.size", 1024, 64, 8192, "texels to a side", "How fine each shadow map is.", "shadows with steps",
      "memory grows with the square, and so does the time that a map takes"},

@@ -33,6 +33,7 @@ city::City town(double side = 600) {
 city::Knobs knobs() {
   city::Knobs k;
   k.declare(planKnobs());
+  k.set("shadows.cascades", 4);
   return k;
 }
 

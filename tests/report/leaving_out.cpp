@@ -90,7 +90,7 @@ const Part kParts[] = {
     {"water", "", "water", "water", false},
     {"trees", "frustum trees", "", "", true},
     {"monuments", "frustum monuments", "", "monument", true},
-    {"avatars", "avatar poses", "", "avatar", true},  // their shadows fall into the maps of all
+    {"avatars", "avatar poses", "shadows", "avatar", true},
 };
 
 /// A town with houses alone; each part is then forced on.

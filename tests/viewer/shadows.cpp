@@ -25,6 +25,7 @@ class Shadows : public testing::Test {
     for (const auto list : {plan::planKnobs(), scenegraph::sceneKnobs(), viewerKnobs()}) knobs_.declare(list);
     knobs_.set("textures.budget_mb", 1);
     knobs_.set("cull_map", 0);
+    knobs_.set("shadows.cascades", 4);
   }
 
   /// A city, its scene and a planner, drawn from nothing.
